@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from time import monotonic
@@ -22,6 +24,11 @@ from sim.world import Scene, World, simulate
 
 MAX_GAP = 0.5  # s; a process that was stopped for longer continues from there instead of catching up
 CHATTER = INFRASTRUCTURE_TOPICS - {"/clock"}
+CHECK = 1.0  # s between two looks at the graph
+SECOND_ROBOT = (
+    "There is a second {name} on ROS domain {domain} of this machine: both obey the same commands, and their"
+    " messages mix. End one of them, or start one with --domain {other}."
+)
 PATIENCE = 0.1  # s until a stop is noticed when nothing else happens
 
 
@@ -70,6 +77,7 @@ class RealTimeRun:
         self.domain, self._words = domain, list(words)
         self.nodes: list[Node] = []
         self._time, self._seen = 0.0, monotonic()  # the scene's, and when it was there
+        self.warning = ""  # what the user should know; it is printed once
 
     def __enter__(self) -> RealTimeRun:
         ros_environment.open_to_this_machine(self.domain)
@@ -79,6 +87,7 @@ class RealTimeRun:
         self._executor = _Executor(self._move_on)
         for process in programs_of(self.scene):
             self.add(process.target())
+        self.every(CHECK, self._look_for_second_robot)
         return self
 
     def __exit__(self, *exception: object) -> None:
@@ -86,6 +95,17 @@ class RealTimeRun:
         for node in self.nodes:
             node.destroy_node()
         rclpy.try_shutdown()
+
+    def _look_for_second_robot(self) -> None:
+        """Warn once if another process on this domain has a node of the same name."""
+        if self.warning:
+            return
+        names = Counter(self.nodes[0].get_node_names_and_namespaces())
+        twice = sorted(f"{space.rstrip('/')}/{name}" for (name, space), count in names.items() if count > 1)
+        found = [name for name in twice if name in {node.get_fully_qualified_name() for node in self.nodes}]
+        if found:
+            self.warning = SECOND_ROBOT.format(name=found[0], domain=self.domain, other=self.domain + 1)
+            print(self.warning, file=sys.stderr, flush=True)
 
     def _move_on(self) -> None:
         """Advance the scene with the wall clock, whatever the nodes' clocks show: those may be set."""

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import contextlib
+from collections import deque
 from collections.abc import Sequence
 from typing import Any
 
+from sim.ros.play.telemetry import Telemetry
 from sim.standalone.live_graph import LiveGraph
+from sim.standalone.node_traffic import NodeTraffic
 from sim.standalone.server import PageServer
 from sim.view.live_view import pack_frame
 from sim.view.strokes import visible_strokes
 from sim.view.world_data import world_data
+from sim.world import Contact
 
 FRAME = 1 / 30  # s
 FRAMES_PER_STATUS = 8
+MAX_CONTACTS = 100  # the newest are shown
 
 
 class LivePage:
@@ -25,8 +30,11 @@ class LivePage:
     def __init__(self, run: Any, ports: Sequence[int]) -> None:
         self._scene = run.scene
         self._run, self._frames = run, 0
+        self._drive, self._selected = run.teleop(), ""
+        self._telemetry, self._contacts = Telemetry(), deque[Contact](maxlen=MAX_CONTACTS)
+        self._traffic = NodeTraffic(lambda: run.scene.time, self._telemetry.add)
         facts = {"world": world_data(run.scene.world), "status": self._status()}
-        self._server = open_server(ports, facts, run.teleop(), LiveGraph(run))
+        self._server = open_server(ports, facts, self._obey, LiveGraph(run))
         run.every(FRAME, self._show)
 
     @property
@@ -38,16 +46,34 @@ class LivePage:
         """Stop the server."""
         self._server.close()
 
+    def _obey(self, command: dict[str, Any]) -> None:
+        """Execute a command of the page, in one of the server's threads."""
+        if "drive" in command:
+            self._drive(*command["drive"])
+        elif "topic" in command:
+            self._selected = command["topic"]
+
     def _status(self) -> dict[str, Any]:
-        """The status: topics, which change with turtles, and their drawing."""
-        run = self._run
-        topics = [{"name": name, "type": kind, "rate": 0} for name, kind in (run.takes | run.gives).items()]
-        drawn = {} if run.scene.drawing is None else {"drawn": visible_strokes(run.scene.drawing)}
-        return {"speed": 1, "pace": 1, "topics": topics, **drawn}
+        """Topics with rates, values, contacts, the drawing of turtles, and a warning if there is one."""
+        run, scene = self._run, self._scene
+        if self._selected != self._telemetry.topic:
+            self._telemetry.select(self._selected)
+        for node in run.nodes:
+            self._traffic.observe(node)
+        kinds = run.takes | run.gives
+        drawn = {} if scene.drawing is None else {"drawn": visible_strokes(scene.drawing)}
+        return {
+            **{"speed": 1, "pace": 1, "stamp": scene.time, "topics": self._traffic.topics(kinds)},
+            **{"contacts": [[contact.x, contact.y] for contact in self._contacts], "warning": run.warning},
+            **self._telemetry.values(scene.world, scene, self._contacts, kinds),
+            **drawn,
+        }
 
     def _show(self) -> None:
         scene = self._scene
-        if scene.drawing is not None and self._frames % FRAMES_PER_STATUS == 0:
+        last = self._contacts[-1].stamp if self._contacts else -1.0
+        self._contacts.extend(contact for contact in scene.contacts if contact.stamp > last)
+        if self._frames % FRAMES_PER_STATUS == 0:
             self._server.send_status(self._status())
         self._frames += 1
         self._server.show(pack_frame(scene.time, scene.poses, scene.last_scan))

@@ -1,7 +1,8 @@
 // The stand-alone robot's page: the notebook's live view, connected to this server instead of a kernel.
 import live from "/live.js";
 
-const GONE = "The robot's program has ended. Start it again, then reload this page.";
+const GONE = "The robot's program has ended. When it is started again, this page connects to it by itself.";
+const RETRY = 1000; // ms between two attempts to connect again
 
 const { world, status } = await (await fetch("/world")).json();
 const values = { world, status, graph: {} };
@@ -12,18 +13,20 @@ const model = {
   get: (name) => values[name],
   on: (name, listener) => (listeners[name] ??= []).push(listener),
   off: (name, listener) => { listeners[name] = (listeners[name] ?? []).filter((other) => other !== listener); },
-  send: (command) => (command.graph ? loadGraph() : drive(command)).catch(() => {}), // the stream reports a lost connection
+  send: (command) => (command.graph ? loadGraph() : post(command)).catch(() => {}), // the stream reports a lost connection
 };
 
-function drive(command) {
+function post(command) {
   const headers = { "Content-Type": "application/json" };
-  return fetch("/drive", { method: "POST", headers, body: JSON.stringify(command) });
+  return fetch("/command", { method: "POST", headers, body: JSON.stringify(command) });
 }
+
+let lastGraph = ""; // as text
 
 async function loadGraph() {
   const graph = await (await fetch("/graph")).text();
-  if (graph === loadGraph.last) return;
-  loadGraph.last = graph;
+  if (graph === lastGraph) return;
+  lastGraph = graph;
   values.graph = JSON.parse(graph);
   emit("change:graph");
 }
@@ -44,4 +47,12 @@ stream.onerror = () => {
   stream.close();
   values.status = { ...values.status, ended: ["gone", GONE] };
   emit("change:status");
+  setTimeout(reconnect, RETRY);
 };
+
+/** Load the page again as soon as a robot's program answers: it may have another world. */
+async function reconnect() {
+  const answer = await fetch("/world").catch(() => null);
+  if (answer?.ok) location.reload();
+  else setTimeout(reconnect, RETRY);
+}

@@ -1,4 +1,4 @@
-"""A small web server for one page: sends frames to browsers on this machine, receives drive commands."""
+"""A small web server for one page: sends frames to browsers on this machine, receives commands."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from sim.view.live_view import parse_command
 
 ADDRESS = "127.0.0.1"  # loopback only
 MAX_VIEWERS = 8
-MAX_BYTES = 200  # of a command
+MAX_BYTES = 400  # of a command
+COMMANDS = {"drive", "topic"}
 TIMEOUT = 5.0  # s, to wait for a frame or for a browser to receive it
 POLICY = "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; connect-src 'self'; img-src data:"
 _HERE = files("sim.standalone")
@@ -30,8 +31,8 @@ class PageServer:
     """Serves the page in its own threads until it is closed.
 
     initial: the first data for the page, as JSON: {"world": ..., "status": ...}.
-    on_drive: called with (forward, left), each in [-1, 1], in one of the server's threads.
-    graph: called in one of these threads, too; its result is sent to the page as JSON.
+    on_command: called with {"drive": [forward, left]}, each in [-1, 1], or with {"topic": name}, the topic to
+    show. graph: its result is sent to the page as JSON. Both are called in the server's threads.
 
     Raises OSError if the port is in use.
     """
@@ -40,10 +41,10 @@ class PageServer:
         self,
         port: int,
         initial: dict[str, Any],
-        on_drive: Callable[[float, float], None],
+        on_command: Callable[[dict[str, Any]], None],
         graph: Callable[[], dict[str, Any]],
     ) -> None:
-        self.on_drive, self.graph = on_drive, graph
+        self.on_command, self.graph = on_command, graph
         self.viewers = threading.BoundedSemaphore(MAX_VIEWERS)
         self.pages = {
             "/": ("text/html; charset=utf-8", _HERE.joinpath("page.html").read_bytes()),
@@ -139,26 +140,26 @@ class _Handler(BaseHTTPRequestHandler):
             self.respond_error(HTTPStatus.NOT_FOUND)
 
     def do_POST(self) -> None:
-        """Receive a drive command, only from this server's own page."""
+        """Receive a command, only from this server's own page."""
         owner, host = self.server.owner, self.headers["Host"]
         length = self.headers["Content-Length"] or ""
         if host not in owner.hosts or self.headers["Origin"] != f"http://{host}":
             self.respond_error(HTTPStatus.FORBIDDEN)
-        elif self.path != "/drive" or not length.isdecimal() or int(length) > MAX_BYTES:
+        elif self.path != "/command" or not length.isdecimal() or int(length) > MAX_BYTES:
             self.respond_error(HTTPStatus.BAD_REQUEST)
         else:
-            self.drive(self.rfile.read(int(length)))
+            self.execute(self.rfile.read(int(length)))
 
-    def drive(self, body: bytes) -> None:
+    def execute(self, body: bytes) -> None:
         """Forward a command, if it is valid."""
         try:
-            command = parse_command(json.loads(body))
+            parsed = parse_command(json.loads(body))
         except (ValueError, RecursionError):
-            command = None
-        if command is None or "drive" not in command:
+            parsed = None
+        if parsed is None or not parsed.keys() <= COMMANDS:
             self.respond_error(HTTPStatus.BAD_REQUEST)
             return
-        self.server.owner.on_drive(*command["drive"])
+        self.server.owner.on_command(parsed)
         self.respond("text/plain", b"")
 
     def stream(self, owner: PageServer) -> None:

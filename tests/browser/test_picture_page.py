@@ -12,7 +12,7 @@ from geometry_msgs.msg import Twist
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from sim import run
+from sim import World, run
 from sim.evidence import Pose
 from sim.view import plot_path, plot_signal, replay, replay_data
 from sim.view.interactive import plot_script
@@ -252,6 +252,43 @@ def test_a_plot_with_wrong_data_stays_a_picture(page, tmp_path, data):
     assert page.locator(".ros2-time-plot").count() == 0
 
 
+def test_the_picture_zooms_pans_and_follows_by_keys_and_by_the_pointer(page, rammed, tmp_path):
+    picture = opened(page, rammed, tmp_path)
+    whole = picture.pixels()
+    picture.canvas.focus()
+    shown = {whole}
+    for key in ("+", "Shift+ArrowLeft", "Shift+ArrowDown", "-", "f"):
+        page.keyboard.press(key)
+        shown.add(picture.pixels())
+    assert len(shown) == 5  # at a zoom of 1 there is nothing to pan
+    follow = picture.root.get_by_role("button", name="Follow the robot (F)")
+    assert follow.get_attribute("aria-pressed") == "true"
+    end = picture.pixels()
+    picture.scrub(0.0)
+    assert picture.pixels() != end
+    page.keyboard.press("Tab")  # out of the scrub bar
+    picture.click("Show everything (0)")
+    assert follow.get_attribute("aria-pressed") == "false"
+    picture.scrub(1.0)
+    assert picture.pixels() == whole
+    picture.click("Zoom in (+)")
+    zoomed = picture.pixels()
+    box = picture.canvas.bounding_box()
+    page.mouse.move(box["x"] + 100, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 140, box["y"] + 130)
+    page.mouse.up()
+    assert picture.pixels() not in (whole, zoomed)
+    assert page.faults == []
+    picture.screenshot("replay-zoomed")
+
+
+def test_the_robot_is_large_enough_to_be_seen_in_a_large_world(page, tmp_path):
+    hall = World(name="hall", card="Picture: A large hall.", bounds=(-50.0, -50.0, 50.0, 50.0))
+    picture = opened(page, run(world=hall, seconds=1, quiet=True), tmp_path)
+    assert TRAIL in picture.canvas.evaluate(COLOURS)
+
+
 def test_the_arm_s_tip_draws_its_path(page, tmp_path):
     arm = run(world="arm", seconds=1, quiet=True)
     turning = [Pose(n / 20, 0.0, 0.0, n / 20) for n in range(21)]
@@ -259,6 +296,7 @@ def test_the_arm_s_tip_draws_its_path(page, tmp_path):
     picture = opened(page, moved, tmp_path)
     assert TRAIL in picture.canvas.evaluate(COLOURS)
     picture.scrub(0.0)
+    picture.pixels()  # after the next paint
     assert TRAIL not in picture.canvas.evaluate(COLOURS)
 
 

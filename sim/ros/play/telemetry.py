@@ -4,16 +4,28 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Protocol
 
-from sim.evidence import Message
 from sim.evidence.message_text import decoded, long_lists, single_numbers, text_lines
 from sim.evidence.readings import readings
 from sim.ros.session import Session
+from sim.world import Contact, Scene, World
 
 PLOT_PERIOD, MAX_POINTS = 10.0, 400  # s of simulated time, and points of a topic's plot
 MAX_CURVES = 2
+
+
+class TopicMessage(Protocol):
+    """A message with its topic, its type and its stamp (s); reading `message` may decode it."""
+
+    topic: str
+    type: str
+    stamp: float
+
+    @property
+    def message(self) -> Any:
+        """The decoded message."""
 
 
 class Telemetry:
@@ -21,9 +33,9 @@ class Telemetry:
 
     def __init__(self) -> None:
         self.topic = ""  # the selected one
-        self._next = 0
-        self._newest: dict[str, Message] = {}
-        self._recent: deque[Message] = deque(maxlen=MAX_POINTS)
+        self._next = 0  # index in a recording
+        self._newest: dict[str, TopicMessage] = {}
+        self._recent: deque[TopicMessage] = deque(maxlen=MAX_POINTS)
 
     def select(self, topic: str) -> None:
         """Show this topic from now on; "" for none."""
@@ -31,32 +43,45 @@ class Telemetry:
         self._recent.clear()
 
     def update(self, session: Session) -> dict[str, Any]:
-        """numbers: pairs of label and text. topic: the selected topic's newest message and plot, or None."""
-        messages = session.recording.published
-        for message in messages[self._next :]:
-            self._newest[message.topic] = message
-            if message.topic == self.topic:
-                self._recent.append(message)
-        self._next = len(messages)
-        return {"numbers": list(self._numbers(session)), "topic": self._topic(session)}
+        """As `values`, of all that a session has recorded."""
+        recording = session.recording
+        for message in recording.published[self._next :]:
+            self.add(message)
+        self._next = len(recording.published)
+        scene = None if session.truth is None else session.truth.scene
+        return self.values(recording.world, scene, recording.contacts, recording.topics)
 
-    def _numbers(self, session: Session) -> Iterator[tuple[str, str]]:
-        world, truth = session.recording.world, session.truth
+    def add(self, message: TopicMessage) -> None:
+        """Take note of a message."""
+        self._newest[message.topic] = message
+        if message.topic == self.topic:
+            self._recent.append(message)
+
+    def values(
+        self,
+        world: World | None,
+        scene: Scene | None,
+        contacts: Sequence[Contact],
+        topics: Mapping[str, str],
+    ) -> dict[str, Any]:
+        """numbers: pairs of label and text. topic: the selected topic's newest message and plot, or None.
+
+        topics: the type of each topic, by name.
+        """
         pose = ranges = None
-        if truth is not None and world is not None:
-            names = [body.name for body in truth.scene.bodies]
+        if scene is not None and world is not None:
+            names = [body.name for body in scene.bodies]
             if world.driven_body in names:
-                pose = truth.scene.poses[names.index(world.driven_body)]
-            scan = truth.scene.last_scan
-            ranges = None if scan is None else scan.ranges
-        yield from readings(world, pose, self._message, ranges, session.recording.contacts)
+                pose = scene.poses[names.index(world.driven_body)]
+            ranges = None if scene.last_scan is None else scene.last_scan.ranges
+        numbers = list(readings(world, pose, self._message, ranges, contacts))
+        return {"numbers": numbers, "topic": self._topic(topics.get(self.topic))}
 
     def _message(self, topic: str, *kinds: str) -> Any:
         item = self._newest.get(topic)
         return decoded(item) if item is not None and item.type in kinds else None
 
-    def _topic(self, session: Session) -> dict[str, Any] | None:
-        kind = session.recording.topics.get(self.topic)
+    def _topic(self, kind: str | None) -> dict[str, Any] | None:
         if kind is None:
             return None
         item = self._newest.get(self.topic)

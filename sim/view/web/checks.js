@@ -1,21 +1,32 @@
 // Validates data from outside before it is drawn; invalid data throws a TypeError.
 
+/** @returns {never} */
 const refuse = (wanted) => { throw new TypeError(`${wanted} was expected`); };
+/** @returns {number} */
 const number = (value, most = 1e6) =>
   typeof value === "number" && Math.abs(value) <= most ? value : refuse("a number");
 const size = (value) => (number(value) >= 0 ? value : refuse("a size"));
+/** @returns {string} */
 const text = (value, most = 2000) =>
   typeof value === "string" && value.length <= most ? value : refuse("a text");
+/** @template T @param {any} value @param {number} most @param {(item: any) => T} each @returns {T[]} */
 const list = (value, most, each) =>
   Array.isArray(value) && value.length <= most ? value.map((item) => each(item)) : refuse("a list");
+/** @typedef {any} Numbers an array of as many numbers as were requested, which is checked at run time */
+/** @param {number} count @returns {(value: any) => Numbers} */
 const numbers = (count) => (value) => {
   const all = list(value, count, (item) => number(item));
   return all.length === count ? all : refuse(`${count} numbers`);
 };
 const polygon = (value) => list(value, 100, numbers(2));
+/** @param {Numbers} bounds @returns {[number, number, number, number]} */
 const box = ([left, bottom, right, top]) =>
   left < right && bottom < top ? [left, bottom, right, top] : refuse("bounds");
+/** @param {Numbers} circle @returns {[number, number, number]} */
 const disc = ([x, y, radius]) => [x, y, size(radius)];
+
+/** @typedef {ReturnType<typeof checkWorld>} World */
+/** @typedef {ReturnType<typeof checkGraph>} GraphLayout */
 
 /** Parses the data of ../world_data.py; throws a TypeError if it is invalid. */
 function checkWorld(world) {

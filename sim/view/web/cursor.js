@@ -12,7 +12,8 @@ function moveCursor(run, time, source, show = false) {
 
 /** Call `onTime` with a time (s) when another picture of the run moves the cursor, while the element is in the page. */
 function followCursor(element, run, onTime) {
-  const follow = ({ detail }) => {
+  const follow = (/** @type {CustomEvent} */ event) => {
+    const { detail } = event;
     if (!element.isConnected) document.removeEventListener(CURSOR, follow);
     else if (detail.run === run && detail.source !== element) onTime(detail.time, detail.show);
   };
@@ -30,13 +31,14 @@ function followTimeLinks() {
   if (window.ros2CourseTimeLinks) return;
   window.ros2CourseTimeLinks = true;
   document.addEventListener("click", (event) => {
-    const link = event.target.closest?.("a[href^='#run-']"), at = timeOf(link);
+    const link = /** @type {Element} */ (event.target).closest?.("a[href^='#run-']"), at = timeOf(link);
     if (!at) return;
     event.preventDefault();
     event.stopPropagation();
     moveCursor(at.run, at.time, link, true);
   }, { capture: true });
-  document.addEventListener(CURSOR, ({ detail: { run, time } }) => {
+  document.addEventListener(CURSOR, (/** @type {CustomEvent} */ event) => {
+    const { run, time } = event.detail;
     for (const link of document.querySelectorAll(`a[href^='#run-${run}-']`)) {
       if (Math.abs(timeOf(link)?.time - time) < AT_CURSOR) link.setAttribute("aria-current", "time");
       else link.removeAttribute("aria-current");

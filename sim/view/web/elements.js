@@ -14,6 +14,8 @@ function make(tag, properties = {}, ...children) {
 const SHAPES = {
   play: "M5 3v10l8-5z", pause: "M4 3h3v10H4zM9 3h3v10H9z", stop: "M4 4h8v8H4z",
   back: "M11 3v10L5 8zM3 3h2v10H3z", on: "M5 3v10l6-5zM11 3h2v10h-2z",
+  more: "M7 3h2v4h4v2H9v4H7V9H3V7h4z", less: "M3 7h10v2H3z", whole: "M2 2h5v2H4v3H2zM9 2h5v5h-2V4H9zM2 9h2v3h3v2H2zM12 9h2v5H9v-2h3z",
+  follow: "M7 1h2v2.1A5 5 0 0 1 12.9 7H15v2h-2.1A5 5 0 0 1 9 12.9V15H7v-2.1A5 5 0 0 1 3.1 9H1V7h2.1A5 5 0 0 1 7 3.1zM8 5a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
   up: "M8 3l6 8H2z", down: "M8 13l6-8H2z", left: "M3 8l8-6v12z", right: "M13 8L5 2v12z",
 };
 

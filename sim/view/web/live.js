@@ -55,7 +55,7 @@ class Pad {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) { this.release(); return; }
     if (event.target.tagName === "SELECT" || event.target.closest(".graph")) return;
-    if (KEYS[event.code]) this.hold(KEYS[event.code], event);
+    if (KEYS[event.code] && !event.shiftKey) this.hold(KEYS[event.code], event);
     else if (event.code === "Space" && event.target.tagName !== "BUTTON") {
       event.preventDefault();
       this.release(true);
@@ -99,6 +99,7 @@ class View {
     this.model = model;
     this.world = model.get("world") && checkWorld(model.get("world"));
     this.trails = [];
+    this.tip = null; // the path of an arm's far end
     this.stage = make("div", { className: "stage" });
     this.topics = make("div");
     this.rows = new Map(); // topic name -> its row; rows are kept, to preserve clicks and focus
@@ -118,7 +119,9 @@ class View {
     const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
     this.how = make("div", { className: "how" }, how);
     this.statusLine = make("div", { className: "say", role: "status" });
-    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage] : []), this.statusLine, this.numbers,
+    this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
+    this.legend = make("div", { className: "legend" });
+    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage, this.legend] : []), this.warningLine, this.statusLine, this.numbers,
       make("div", { className: "topics" }, this.head, this.topics, this.more), this.graph.root);
     this.tick = setInterval(() => { this.showTimeout(); this.requestGraph(); }, TIMEOUT / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
@@ -133,6 +136,8 @@ class View {
   start() {
     if (this.world) {
       this.picture = new WorldCanvas(this.stage, this.world);
+      this.showLegend();
+      onTheme(this.root, () => this.showLegend());
       this.picture.canvas.addEventListener("pointerdown", () => this.picture.canvas.focus());
       if (this.drives) {
         // Screen readers must pass keys on to it.
@@ -142,6 +147,10 @@ class View {
     }
     this.showGraph();
     this.showStatus();
+  }
+
+  showLegend() {
+    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(legendOf(this.world, colours(this.root))));
   }
 
   close() {
@@ -188,6 +197,7 @@ class View {
     this.clock.textContent = floats[0].toFixed(2);
     if (!this.picture) return;
     const { bodies, lidar } = this.world;
+    /** @returns {[number, number, number]} */
     const pose = (at) => [floats[at], floats[at + 1], floats[at + 2]];
     const count = this.turtles ? (floats.length - 1) / 3 : bodies.length;
     const poses = Array.from({ length: count }, (_, index) => pose(1 + 3 * index));
@@ -205,6 +215,7 @@ class View {
     this.picture.requestPaint();
   }
 
+  /** Append a point to a path. @param {number[][]} trail @param {number[]} point */
   extend(trail, [x, y]) {
     const last = trail.at(-1);
     if (last && Math.hypot(x - last[0], y - last[1]) < 0.005) return;
@@ -223,7 +234,7 @@ class View {
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
     this.showEvent(ended);
     for (const topic of topics) this.showTopic(topic);
-    const { numbers: counts, topic = null } = this.status; // a stand-alone robot sends neither
+    const { numbers: counts, topic = null } = this.status;
     this.head.textContent = counts ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS";
     this.numbers.replaceChildren(...(counts ?? []).map(([label, value]) => make("div", { className: label === "contacts" && value !== "none" ? "event" : "" },
       make("dt", {}, label), make("dd", {}, value))));
@@ -242,6 +253,9 @@ class View {
 
   /** The end of the run, or the newest contact: both are announced to screen readers. */
   showEvent(ended) {
+    const { warning = "" } = this.status; // of a stand-alone robot
+    this.warningLine.hidden = !warning;
+    if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
     const told = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
     if (told !== this.event) this.statusLine.textContent = this.event = told;

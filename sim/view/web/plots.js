@@ -25,7 +25,9 @@ function checkPlot(plot) {
       unit: text(panel.unit), series: list(panel.series, 20, series),
       levels: list(panel.levels, 5, ([value, name, tint]) => ({ value: number(value), name: text(name), colour: colour(tint) })),
     })),
-    rows: list(plot.rows, 200, ({ name, colour: tint, x }) => ({ name: text(name), colour: colour(tint), x: list(x, 5000, (stamp) => number(stamp)) })),
+    rows: list(plot.rows, 200, ({ name, colour: tint, x }) => ({
+      name: text(name), colour: colour(tint), x: list(x, 5000, (stamp) => number(stamp)),
+    })),
     marks: list(plot.marks, 1000, ([stamp, kind, words]) => ({
       stamp: number(stamp, 1e9) * 1e-3, kind: MARK_KINDS.includes(kind) ? kind : refuse("a kind of mark"), words: text(words),
     })),
@@ -86,7 +88,8 @@ class TimePlot {
     this.failure.style.color = look.failure;
     this.drawn = this.width;
     for (const chart of this.charts ?? []) chart.destroy();
-    const panels = this.plot.rows.length ? [this.rowsChart()] : this.plot.panels.map((panel, index) => this.panelChart(panel, index === this.plot.panels.length - 1));
+    const { panels: all, rows } = this.plot;
+    const panels = rows.length ? [this.rowsChart()] : all.map((panel, index) => this.panelChart(panel, index === all.length - 1));
     this.charts = panels;
   }
 

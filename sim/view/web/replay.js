@@ -5,12 +5,14 @@ const PERSISTENCE = 0.06; // s for which a body is shown after its last pose
 const LINES = 6; // visible log lines
 
 class Player {
+  /** @param {Run} run */
   constructor(run) {
     this.run = run;
     this.speed = run.speed;
     this.time = run.open;
     this.playing = false;
     this.topic = new Topic();
+    /** @type {RunTopic | null} */
     this.selected = null; // the topic that is looked into
     this.root = make("div", { className: "ros2-view" });
     this.root.dataset.lmSuppressShortcuts = "true";
@@ -19,7 +21,7 @@ class Player {
     const row = make("div", { className: "row" }, ...(run.world ? [this.stage] : []), this.side);
     this.graph = new Graph();
     this.numbers = make("dl", { className: "numbers", hidden: !run.strip?.labels.length });
-    this.values = (run.strip?.labels ?? []).map((label) => make("dd"));
+    this.values = (run.strip?.labels ?? []).map(() => make("dd"));
     this.values.forEach((value, index) => this.numbers.append(make("div", {}, make("dt", {}, run.strip.labels[index]), value)));
     this.root.append(make("style", {}, STYLE), row, this.controls(), this.numbers, this.graph.root);
     this.strips = this.timeline();
@@ -193,7 +195,7 @@ class Player {
   }
 }
 
-/** What a WorldCanvas shows of a run at a time (s). */
+/** What a WorldCanvas shows of a run at a time (s). @param {Run} run @param {number} time @returns {Frame} */
 function frameAt(run, time) {
   const at = before(run.stamps, time), next = Math.min(at + 1, run.stamps.length - 1);
   const isAbsent = (index) => run.presence && !run.presence[index].some(([from, to]) => from <= time + 1e-6 && time <= to + PERSISTENCE);
@@ -217,6 +219,7 @@ function runCanvas(stage, { world, tracks }) {
 
 /** The whole path of a run in its world, and the bodies at the cursor: first at the end. */
 class PathPicture {
+  /** @param {Run} run */
   constructor(run) {
     this.run = run;
     this.stage = make("div", { className: "stage" });
@@ -255,11 +258,7 @@ class PathPicture {
       ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
     ];
     this.failure.style.color = look.failure;
-    this.legend.replaceChildren(make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`), ...entries.map(([sign, colour, name]) => {
-      const swatch = make("b", { ariaHidden: "true" }, sign);
-      swatch.style.color = colour;
-      return make("span", {}, swatch, ` ${name}`);
-    }));
+    this.legend.replaceChildren(make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`), ...legendElements(entries));
   }
 }
 

@@ -4,6 +4,9 @@ const STRIP = 240; // columns of a topic's timeline
 const KINDS = ["contact", "error", "missed", "push", "end", "DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const KEY = /^[0-9a-f]{12}$/;
 
+/** @typedef {ReturnType<typeof checkRun>} Run */
+/** @typedef {Run["topics"][number]} RunTopic */
+
 /** Decodes whole numbers stored as differences, the first one from 0; `unit` is the value of 1. */
 function cumulated(differences, unit) {
   let sum = 0;
@@ -27,10 +30,14 @@ function checkStrip({ labels, stamps, values }) {
 /** Parses the stored messages of a topic: each a list of lines. */
 function checkMessages({ type, count, stamps, texts, curves }) {
   let lines = [];
-  const read = list(texts, 1000, (changes) => lines = list(changes, 100, (line) => line).map((line, index) => (line === 0 ? text(lines[index]) : text(line))));
+  const read = list(texts, 1000, (changes) => {
+    lines = list(changes, 100, (line) => line).map((line, index) => (line === 0 ? text(lines[index]) : text(line)));
+    return lines;
+  });
   const moments = list(stamps, 1000, (stamp) => number(stamp, 1e9) * 1e-3);
   if (moments.length !== read.length) refuse("a text for each stamp");
-  return { type: text(type), count: size(count), stamps: moments, texts: read, curves: list(curves, 2, ([name, line]) => ({ name: text(name), line: size(line) })) };
+  const plotted = list(curves, 2, ([name, line]) => ({ name: text(name), line: size(line) }));
+  return { type: text(type), count: size(count), stamps: moments, texts: read, curves: plotted };
 }
 
 function checkRun(run) {

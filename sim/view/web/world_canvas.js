@@ -4,6 +4,7 @@ const MARGIN = 0.2; // m around the bounds
 const MAX_HEIGHT = 500; // CSS pixels
 const LEAST_HEIGHT = 140, TOPICS = 40; // px; in a panel, at least of the picture, and what is left for topics
 const LEAST_SHARE = 0.45; // of a panel's height, at least for the picture
+const LEAST_ROBOT = 7; // px, the radius of a robot that would be smaller in a large world
 const FAINT = 0.35; // opacity of a body where it started
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
 
@@ -20,25 +21,38 @@ function tipPath(world, poses) {
   return reach === null ? null : poses.map(([x, y, yaw]) => [x + reach * Math.cos(yaw), y + reach * Math.sin(yaw)]);
 }
 
+/** @typedef {number[]} Pose x, y (m) and yaw (rad) */
+/** @typedef {number[][]} Path points or poses */
+/** @typedef {{ pose: Pose, ranges: ArrayLike<number>, start: number, step: number, far: number }} LaserScan */
+/**
+ * @typedef {{ poses: Pose[], scan: LaserScan | null, trails: Path[], ahead: Path[], contacts: number[][], starts?: Pose[],
+ *   drawn?: any, tip?: Path, tipAhead?: Path }} Frame
+ */
+
 /**
  * A canvas that shows the world and adapts to the size of its stage.
  *
  * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
  * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
- * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end. There may be more turtles than at the start.
+ * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end.
+ * There may be more turtles than at the start.
  */
 class WorldCanvas {
+  /** @param {HTMLElement} stage @param {World} world */
   constructor(stage, world) {
     this.stage = stage;
     this.world = world;
     this.canvas = make("canvas", { tabIndex: 0, role: "img", "aria-label": `The world ${world.name}` });
     this.canvas.dataset.lmSuppressShortcuts = "true";
     this.context = this.canvas.getContext("2d");
+    /** @type {Frame} */
     this.frame = { poses: [], scan: null, trails: [], ahead: [], contacts: [] };
     this.request = 0;
     const [left, bottom, right, top] = world.bounds;
     this.shown = [left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN];
     stage.append(this.canvas);
+    this.camera = new Camera(this, world.bodies.findIndex(({ kind }) => kind === "robot" || kind === "turtle"));
+    stage.append(this.camera.root);
     this.sizes = new ResizeObserver(() => this.fit());
     this.sizes.observe(stage);
     this.frameless = stage.closest(".ros2-course-robot"); // a panel of a given height, which the picture has to fit
@@ -52,7 +66,7 @@ class WorldCanvas {
     cancelAnimationFrame(this.request);
   }
 
-  /** Extend the picture, by whole metres, so that it includes a body at this pose. */
+  /** Extend the picture, by whole metres, so that it includes a body at this pose. @param {World["bodies"][number]} body @param {Pose} pose */
   include(body, [x, y]) {
     const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v)));
     const [left, bottom, right, top] = this.shown;
@@ -77,16 +91,13 @@ class WorldCanvas {
     this.canvas.width = Math.round(this.width * sharp);
     this.canvas.height = Math.round(this.height * sharp);
     this.canvas.style.height = `${this.height}px`;
-    this.scale = Math.min(this.width / (right - left), this.height / (top - bottom));
-    this.x0 = this.width / 2 - this.scale * (left + right) / 2;
-    this.y0 = this.height / 2 + this.scale * (bottom + top) / 2;
     this.requestPaint();
   }
 
   /** The height (px) that the panel around leaves for the picture, beside the controls and the numbers. */
   mostHeight() {
     if (!this.frameless) return Infinity;
-    const others = [...this.stage.parentElement.children].filter((each) => each.matches(".how, .bar, .say, .numbers"));
+    const others = /** @type {HTMLElement[]} */ ([...this.stage.parentElement.children]).filter((each) => each.matches(".how, .bar, .legend, .warning, .say, .numbers"));
     const taken = others.reduce((sum, each) => sum + each.offsetHeight, 0);
     const room = this.frameless.clientHeight;
     return Math.max(room - taken - TOPICS, LEAST_SHARE * room, LEAST_HEIGHT);
@@ -109,6 +120,10 @@ class WorldCanvas {
   paint() {
     if (this.grown || this.isOutgrown()) this.fit();
     if (!this.width) return; // invisible, for example in a collapsed part of the page
+    const { scale, x, y } = this.camera.view();
+    this.scale = scale;
+    this.x0 = this.width / 2 - scale * x;
+    this.y0 = this.height / 2 + scale * y;
     const sharp = window.devicePixelRatio || 1;
     this.look = colours(this.stage);
     this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
@@ -308,12 +323,13 @@ class WorldCanvas {
     const cos = Math.cos(yaw), sin = Math.sin(yaw);
     const placed = (u, v) => [x + cos * u - sin * v, y + sin * u + cos * v];
     const robot = body.kind === "robot";
+    const radius = robot && body.radius ? Math.max(body.radius, LEAST_ROBOT / this.scale) : body.radius;
     const fill = robot ? this.robot(index) : body.kind === "turtle" ? this.look.turtles[index % this.look.turtles.length]
       : this.look[body.kind] || this.look.solid;
-    if (body.radius) this.disc(x, y, body.radius, fill, robot ? this.look.floor : this.look.edge);
+    if (radius) this.disc(x, y, radius, fill, robot ? this.look.floor : this.look.edge);
     else this.area(body.outline.map(([u, v]) => placed(u, v)), fill, robot ? this.look.floor : this.look.wall);
     if (robot) {
-      const r = body.radius || Math.max(...body.outline.map(([u, v]) => Math.hypot(u, v))) / 2;
+      const r = radius || Math.max(...body.outline.map(([u, v]) => Math.hypot(u, v))) / 2;
       this.context.beginPath();
       for (const [u, v] of [[0.8, 0], [-0.4, 0.55], [-0.15, 0], [-0.4, -0.55]]) {
         this.context.lineTo(...this.at(...placed(r * u, r * v)));
@@ -354,7 +370,7 @@ class WorldCanvas {
     c.lineTo(right, low - 4);
     c.font = "11px system-ui, sans-serif";
     c.textAlign = "center";
-    for (const [colour, width] of [[this.look.floor, 4], [this.look.ink, 1.5]]) {
+    for (const { colour, width } of [{ colour: this.look.floor, width: 4 }, { colour: this.look.ink, width: 1.5 }]) {
       c.strokeStyle = c.fillStyle = colour;
       c.lineWidth = width;
       c.stroke();

@@ -78,6 +78,11 @@ def command(v, w, period, kind=Twist):
         time.sleep(period)
 
 
+def second_robot():
+    """A node with the robot's name."""
+    continue_for_ever(node_of("robot"))
+
+
 def drive():
     command(0.5, 0.0, 0.1)
 

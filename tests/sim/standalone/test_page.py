@@ -35,7 +35,7 @@ def browser():
 @pytest.fixture
 def page():
     driven = []
-    made = server.PageServer(0, FACTS, lambda *way: driven.append(way), lambda: GRAPH)
+    made = server.PageServer(0, FACTS, driven.append, lambda: GRAPH)
     with contextlib.closing(made) as running:
         running.driven = driven
         yield running
@@ -91,8 +91,8 @@ def test_the_page_has_all_its_parts(page):
 
 
 def test_only_its_own_page_drives(page):
-    assert request(page, "POST", "/drive", DRIVE, Origin=own(page)) == (200, b"")
-    assert page.driven == [(1.0, -0.5)]
+    assert request(page, "POST", "/command", DRIVE, Origin=own(page)) == (200, b"")
+    assert page.driven == [{"drive": [1.0, -0.5]}]
     for headers in (
         {},
         {"Origin": "http://evil.example"},
@@ -100,16 +100,16 @@ def test_only_its_own_page_drives(page):
         {"Origin": "http://evil.example", "Host": "evil.example"},  # a name that leads here
         {"Origin": f"http://localhost:{page.port + 1}"},
     ):
-        assert request(page, "POST", "/drive", DRIVE, **headers) == FORBIDDEN
-    assert page.driven == [(1.0, -0.5)]
+        assert request(page, "POST", "/command", DRIVE, **headers) == FORBIDDEN
+    assert page.driven == [{"drive": [1.0, -0.5]}]
 
 
 @pytest.mark.parametrize("body", [
     "", "{", "[" * 199, '{"drive": [1]}', '{"drive": [1, NaN]}', '{"drive": [2, 0]}', '{"stop": true}',
-    '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 200,
+    '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 400,
 ])  # fmt: skip
 def test_what_is_no_command_is_refused(page, body):
-    assert request(page, "POST", "/drive", body, Origin=own(page)) == BAD
+    assert request(page, "POST", "/command", body, Origin=own(page)) == BAD
     assert page.driven == []
 
 
@@ -189,8 +189,49 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
         page.screenshot(path=ARTIFACTS / "standalone-graph.png", full_page=True)
         assert faults == []
         assert running.stop() == (0, "")
-        text = "The robot's program has ended. Start it again, then reload this page."
+        page.get_by_text("The robot's program has ended.").wait_for()
+        page.close()
+
+
+@pytest.mark.browser
+def test_the_page_has_the_panel_of_the_notebook_and_connects_again_by_itself(browser):
+    with robot("--world", "room", "--port", "0") as running:
+        address = re.search(r"See and drive it at (\S+)", running.offer)[1]
+        page = patient_page(browser)
+        faults = []
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(address)
+        assert page.locator(".legend").inner_text().split() == ["room", "★", "goal", "■", "obstacle"]
+        number = page.locator(".numbers div", has_text="nearest")
+        expect(number.locator("dd")).to_have_text(re.compile(r"\d\.\d\d m"))
+        expect(page.locator(".topic", has_text="/scan")).to_contain_text("Hz")
+        page.get_by_role("button", name="/odom").click()
+        expect(page.locator(".looked pre")).to_contain_text("child_frame_id: base_link")
+        expect(page.locator(".looked")).to_contain_text("nav_msgs/msg/Odometry")
+        page.screenshot(path=ARTIFACTS / "standalone-panel.png", full_page=True)
+        port = address.rpartition(":")[2]
+        assert running.stop() == (0, "")
+        text = "The robot's program has ended. When it is started again, this page connects to it by itself."
         page.get_by_text(text).wait_for()
+    with robot("--world", "yard", "--port", port):
+        page.locator(".legend", has_text="yard").wait_for()
+        assert faults == []
+        page.close()
+
+
+@pytest.mark.browser
+def test_a_second_robot_is_reported_once_in_the_terminal_and_on_the_page(browser):
+    with robot("--world", "yard", "--port", "0") as running:
+        page = patient_page(browser)
+        page.goto(re.search(r"http://\S+", running.offer)[0])
+        domain = running.domain
+        text = (
+            f"There is a second /robot on ROS domain {domain} of this machine: both obey the same commands,"
+            f" and their messages mix. End one of them, or start one with --domain {domain + 1}."
+        )
+        with running.beside("second_robot"):
+            page.get_by_text(text).wait_for()
+        assert running.stop() == (0, f"{text}\n")
         page.close()
 
 
@@ -216,11 +257,8 @@ def test_turtles_and_their_lines_are_shown(browser):
         tab.keyboard.down("ArrowUp")
         tab.wait_for_function(f"() => ({COLOURS})(document.querySelector('canvas')).includes('b3b8ff')")
         tab.keyboard.up("ArrowUp")
-        assert tab.locator(".topic").all_inner_texts() == [
-            "/turtle1/cmd_vel",
-            "/turtle1/color_sensor",
-            "/turtle1/pose",
-        ]
+        names = [row.locator("span").first.inner_text() for row in tab.locator(".topic").all()]
+        assert names == ["/turtle1/cmd_vel", "/turtle1/color_sensor", "/turtle1/pose"]
         assert tab.faults == []
         tab.close()
 
@@ -230,7 +268,9 @@ def test_a_frame_holds_stamp_poses_and_scan():
         port = int(re.search(r"localhost:(\d+)", running.offer)[1])
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
         connection.request("GET", "/frames")
-        raw = base64.b64decode(connection.getresponse().readline().removeprefix(b"data: "))
+        lines = iter(connection.getresponse().readline, b"")
+        line = next(line for line in lines if line.startswith(b"data: ") and b"{" not in line)
+        raw = base64.b64decode(line.removeprefix(b"data: "))
         floats = struct.unpack(f"<{len(raw) // 4}f", raw)
         assert len(floats) == 1 + 3 + 3 + 360
         assert floats[1:7] == (0.0,) * 6
