@@ -29,6 +29,7 @@ teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
 # One process more than cores: browsers, kernels and robots that run in real time are often waited for.
 TESTERS = $$($(BIN)/python -c "import os; print(1 + len(os.sched_getaffinity(0)))")
 test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some)
+	@sh .ci/javascript install
 	$(BIN)/python -m pytest -n $(TESTERS) --dist loadfile $(ARGS)
 
 solutions: setup  ## run every lesson and every solution (make solutions ARGS="--junit FILE")
@@ -67,6 +68,7 @@ lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
 	$(BIN)/python -m grader.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
+	@sh .ci/javascript
 
 setup: $(VENV)/.interfaces  ## make .venv and nothing more
 

@@ -2,11 +2,11 @@
 // browsers load directly; they access JupyterLab through the modules that all extensions share.
 
 (() => {
-  const here = document.currentScript.src;
+  const here = /** @type {HTMLScriptElement} */ (document.currentScript).src;
   let scope;
   const share = async (name) => (await Object.values(scope[name])[0].get())();
   const modules = {
-    "./extension": async () => (await import(new URL("course.js", here))).plugins(share),
+    "./extension": async () => (await import(new URL("course.js", here).href)).plugins(share),
     "./style": async () => {
       document.head.append(Object.assign(document.createElement("link"), {
         rel: "stylesheet", href: new URL("course.css", here),

@@ -2,6 +2,10 @@
 
 export function imageRenderer(lab, options) {
   class Image extends lab.RenderedImage {
+    constructor(settings) {
+      super(settings);
+    }
+
     async renderModel(model) {
       await super.renderModel(model);
       const alt = model.metadata["image/png"]?.alt;

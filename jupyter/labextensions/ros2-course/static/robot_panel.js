@@ -13,7 +13,11 @@ const ICON = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24"><g cla
 /** The one sidebar; it shows the robot of the active notebook. */
 export class RobotSidebar {
   constructor(lab, app, tracker) {
-    Object.assign(this, { lab, app, tracker, robots: new Map(), opened: false });
+    this.lab = lab;
+    this.app = app;
+    this.tracker = tracker;
+    this.robots = new Map(); // by notebook panel
+    this.opened = false;
     this.widget = new lab.StackedPanel();
     this.widget.id = ID;
     this.widget.addClass("ros2-course-robots");
@@ -41,7 +45,7 @@ export class RobotSidebar {
 
   /** Open the sidebar with the robot, wide enough to see it; the focus stays where it is. */
   open() {
-    const { shell } = this.app, focused = document.activeElement;
+    const { shell } = this.app, focused = /** @type {HTMLElement} */ (document.activeElement);
     this.opened = true;
     if (!this.widget.isVisible) shell.activateById(ID);
     if (focused !== document.activeElement) focused?.focus?.();
@@ -64,7 +68,13 @@ export class RobotSidebar {
 /** The robot of one notebook. */
 export class RobotPanel {
   constructor(lab, sidebar, panel) {
-    Object.assign(this, { lab, sidebar, panel, shown: {}, notice: NONE, wanted: true, watchers: new Set() });
+    this.lab = lab;
+    this.sidebar = sidebar;
+    this.panel = panel;
+    this.shown = {}; // the kernel's MIME bundle
+    this.notice = NONE;
+    this.wanted = true;
+    this.watchers = new Set();
     this.content = new lab.BoxPanel();
     this.content.addClass("ros2-course-robot");
     this.fill();

@@ -17,7 +17,9 @@ export function startPage(lab, app, tracker, restorer) {
 
 class StartPage {
   constructor(lab, app, tracker) {
-    Object.assign(this, { lab, app, tracker });
+    this.lab = lab;
+    this.app = app;
+    this.tracker = tracker;
     this.widget = new lab.Widget();
     this.widget.id = ID;
     this.widget.addClass(ID);

@@ -1,0 +1,122 @@
+// What the scripts of the pages compute without a browser.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { load } from "./load.js";
+
+const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"], ["checkWorld", "list", "number", "numbers", "text", "checkGraph"]);
+const { before } = load(["elements"], ["before"]);
+const { viewAt } = load(["camera"], ["viewAt"]);
+const { cumulated, unchanged, topicAt, checkRun } = load(
+  ["checks", "elements", "drawing", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun"],
+);
+const { tipPath } = load(["checks", "world_canvas"], ["tipPath"]);
+const { visibleAt } = load(["checks", "elements", "drawing"], ["visibleAt"]);
+const { legendOf } = load(["legend"], ["legendOf"]);
+const { timeOf } = load(["cursor"], ["timeOf"]);
+
+const WORLD = {
+  name: "hall", bounds: [0, 0, 4, 2], goal: null, walls: [[0, 0, 4, 0]], boxes: [], circles: [[1, 1, 0.2]],
+  bodies: [{ name: "robot", kind: "robot", radius: 0.1, outline: [] }], lidar: { start: 0, step: 0.1, far: 3.5 },
+};
+const RUN = {
+  version: 1, run: "0123456789ab", speed: 1, world: WORLD, stamps: [0, 50, 50], tracks: [[[0, 100, 100], [0, 0, 0], [0, 0, 0]]],
+  scans: [], marks: [[100, "end", "over", null]], logs: [], topics: [], end: 0.1,
+};
+
+test("a world is parsed, and what is wrong in it is refused with what was expected", () => {
+  assert.deepEqual(checkWorld(WORLD).circles, [[1, 1, 0.2]]);
+  assert.throws(() => checkWorld({ ...WORLD, name: 3 }), { name: "TypeError", message: "a text was expected" });
+  assert.throws(() => checkWorld({ ...WORLD, bounds: [4, 0, 0, 2] }), { message: "bounds was expected" });
+  assert.throws(() => checkWorld({ ...WORLD, circles: [[1, 1, -1]] }), { message: "a size was expected" });
+  assert.throws(() => checkWorld({ ...WORLD, walls: [[0, 0, 4]] }), { message: "4 numbers was expected" });
+});
+
+test("numbers, texts and lists have limits", () => {
+  assert.throws(() => number(Infinity), { message: "a number was expected" });
+  assert.throws(() => number("1"), { message: "a number was expected" });
+  assert.throws(() => text("x".repeat(2001)), { message: "a text was expected" });
+  assert.throws(() => list([1, 2, 3], 2, number), { message: "a list was expected" });
+  assert.deepEqual(numbers(2)([1, 2]), [1, 2]);
+});
+
+test("a graph has boxes of known kinds, and arrows of whole curves", () => {
+  const graph = { width: 1, height: 1, reasons: [], more: "", words: "", boxes: [], arrows: [] };
+  assert.deepEqual(checkGraph(graph).boxes, []);
+  const box = { kind: "door", name: "a", lines: [], place: [0, 0, 1, 1] };
+  assert.throws(() => checkGraph({ ...graph, boxes: [box] }), { message: "a kind of box was expected" });
+  const arrow = { gap: 0, rest: false, points: [0, 0, 1, 1], middle: [0, 0] };
+  assert.throws(() => checkGraph({ ...graph, arrows: [arrow] }), { message: "a beginning and curves was expected" });
+});
+
+test("the last item that is not later than a stamp is found", () => {
+  assert.deepEqual([-1, 0, 0.5, 1, 9].map((stamp) => before([0, 1, 2], stamp)), [-1, 0, 0, 1, 2]);
+  assert.equal(before([], 1), -1);
+});
+
+test("a view shows everything, and never more than that", () => {
+  const size = { width: 400, height: 200 };
+  assert.deepEqual(viewAt(size, [0, 0, 4, 2], 1, [9, 9]), { scale: 100, x: 2, y: 1 });
+  assert.deepEqual(viewAt(size, [0, 0, 4, 2], 2, [1.5, 1]), { scale: 200, x: 1.5, y: 1 });
+  assert.deepEqual(viewAt(size, [0, 0, 4, 2], 2, [0, 2]), { scale: 200, x: 1, y: 1.5 });
+  assert.deepEqual(viewAt(size, [0, 0, 2, 2], 1.5, [0, 0]), { scale: 150, x: 1, y: 2 / 3 });
+});
+
+test("differences and unchanged values are decoded", () => {
+  assert.deepEqual(cumulated([100, 1, -2], 0.5), [50, 50.5, 49.5]);
+  assert.deepEqual(unchanged(["a", 0, "b", 0], 9, String), ["a", "a", "b", "b"]);
+});
+
+test("a run is parsed with its poses", () => {
+  const run = checkRun(RUN);
+  assert.deepEqual(run.stamps, [0, 0.05, 0.1]);
+  assert.deepEqual(run.tracks[0][2], [0.2, 0, 0]);
+  assert.equal(run.open, run.end);
+});
+
+for (const [what, change, message] of [
+  ["another version", { version: 2 }, "version 1"],
+  ["stamps that fall", { stamps: [50, -50, 0] }, "rising stamps"],
+  ["a track too many", { tracks: [...RUN.tracks, ...RUN.tracks] }, "a track for each body"],
+  ["a pose too few", { tracks: [[[0], [0], [0]]] }, "a pose for each stamp"],
+  ["an unknown event", { marks: [[0, "party", "", null]] }, "a kind of event"],
+]) {
+  test(`a run with ${what} is refused`, () => {
+    assert.throws(() => checkRun({ ...RUN, ...change }), { message: `${message} was expected` });
+  });
+}
+
+test("the message of a topic at a time is the stored one before it", () => {
+  const messages = { type: "std_msgs/msg/Float64", count: 5, stamps: [1, 2], texts: [["data: 0.5"], ["data: 0.7"]], curves: [{ name: "data", line: 0 }] };
+  const at = (time) => topicAt({ name: "/level", messages }, time);
+  assert.equal(at(0.5).text, "No message yet.");
+  assert.equal(at(1.5).text, "data: 0.5\n# 2 of 5 messages are stored here");
+  assert.deepEqual(at(2).curves[0].points, [[1, 0.5], [2, 0.7]]);
+});
+
+test("the far end of an arm is computed from its last link", () => {
+  const arm = { bodies: [{ kind: "link", outline: [[-0.1, 0], [1.1, 0]] }] };
+  const path = tipPath(arm, [[0, 0, 0], [1, 2, Math.PI / 2]]);
+  assert.deepEqual(path.map((point) => point.map((value) => Math.round(value * 100) / 100)), [[1, 0], [1, 3]]);
+  assert.equal(tipPath(WORLD, [[0, 0, 0]]), null);
+});
+
+test("strokes are visible from their first point until they are erased", () => {
+  const points = [[1, 0, 0], [2, 1, 0], [3, 2, 0]];
+  const drawing = { grounds: [{ stamp: 0, colour: "#000000" }], strokes: [{ colour: "#ffffff", width: 1, erased: 4, points }] };
+  assert.deepEqual([0, 1, 2.5, 4].map((time) => visibleAt(drawing, time).strokes.map((stroke) => stroke.points.length)), [[], [1], [2], []]);
+});
+
+test("a legend names what is in a world besides walls and one robot", () => {
+  const look = { robots: ["blue", "violet"], goal: "gold", edge: "grey", person: "red", rim: "brown" };
+  const world = { ...WORLD, goal: [1, 1], places: [["desk", [0, 0]]], bodies: [...WORLD.bodies, { name: "visitor", kind: "person" }] };
+  assert.deepEqual(legendOf(world, look).map(([, colour, name]) => `${colour} ${name}`), ["gold goal", "grey obstacle", "red person", "brown named place"]);
+  assert.deepEqual(legendOf({ ...WORLD, circles: [], places: [] }, look), []);
+});
+
+test("a link with a time has the key of its run", () => {
+  const link = (href) => ({ getAttribute: () => href });
+  assert.deepEqual(timeOf(link("#run-0123456789ab-3.16")), { run: "0123456789ab", time: 3.16 });
+  assert.equal(timeOf(link("#somewhere")), null);
+  assert.equal(timeOf(null), null);
+});
