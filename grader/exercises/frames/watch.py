@@ -19,8 +19,10 @@ watch = Exercise("watch", "The tower that does not watch", world=square, seconds
 
 @watch.check(2)
 def starts_the_watcher(run: Recording) -> None:
-    """The watcher is started, as /watcher."""
-    named(run, "/watcher")
+    """The watcher is started, as /watcher or in a namespace."""
+    started = [name for name in run.graph.nodes if not run.is_course_node(name)]
+    if not any(name.endswith("/watcher") for name in started):
+        named(run, "/watcher")
 
 
 @watch.check(10, after=starts_the_watcher)

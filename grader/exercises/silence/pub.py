@@ -4,7 +4,7 @@ import itertools
 import math
 import re
 
-from grader.checks import Missed, keeps_clear, lasts, publishes, series, travelled
+from grader.checks import Missed, keeps_clear, publishes, series, tenths, travelled
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from sim.evidence import Recording, stamps
@@ -17,9 +17,11 @@ NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and tur
 COMPLAINT = re.compile(
     "error:|command not found|is not a command|can't be read|populate field|is invalid|is not what it looks"
 )
+STRAIGHT = "A speed ahead without a turn leads to a wall: give both, linear.x and angular.z."
+WIDE = "Radius = speed / turn. For 0.5 m at 0.3 m/s, how many rad/s is that?"
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
-pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True)
+pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True, may_end=True)
 
 
 @pub.check(3)
@@ -49,18 +51,21 @@ def comes_often_enough(run: Recording) -> None:
         saw = f"{pause:.3g} s without one, from {since:.3g} s on" if pause else "one command"
         hint = "Without --rate a message goes out once a second, with --once a single time. Give --rate 10."
         raise Missed(expected, saw, hint, picture="topics")
-    lasts(run, COMMANDS)
+    last = stamps(run.messages(COMMANDS))[-1]
+    if last + 2 * TIMEOUT < run.seconds and not _is_round(run):
+        hint = "Without --times it publishes until it is stopped; with it, once round has to be done before."
+        raise Missed("commands to the end, or once round", f"the last one at {last:.3g} s", hint,
+                     credit=tenths(last / run.seconds))
 
 
 @pub.check(4, after=can_be_read)
 def drives_the_circle(run: Recording) -> None:
     """The robot drives once round a circle of 0.5 m radius, to the left, and touches nothing."""
-    keeps_clear(run, "A speed ahead without a turn leads to a wall: give both, linear.x and angular.z.")
+    turns = any(turn for _, turn in series(run, COMMANDS, "angular.z"))
+    keeps_clear(run, WIDE if turns else STRAIGHT)
     far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
-    steps = itertools.pairwise(run.path)
-    turned = sum(math.remainder(after.yaw - before.yaw, math.tau) for before, after in steps)
-    length = travelled(run)
-    if max(far) > NEAR or turned < ROUND or length < ROUND * RADIUS:
+    turned, length = _turned(run), travelled(run)
+    if max(far) > NEAR or not _is_round(run):
         way = f"a way of {math.tau * RADIUS:.2f} m round a circle"
         saw = f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
         saw += f"{max(far):.2f} m off the circle"
@@ -77,6 +82,17 @@ def drives_at_the_speed(run: Recording) -> None:
         turn = f"{SPEED / RADIUS:g} rad/s"
         hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m wants {turn}."
         raise Missed(f"linear.x {SPEED:g}", f"{wrong:g}", hint)
+
+
+def _turned(run: Recording) -> float:
+    """By how much the robot has turned to the left, in rad."""
+    steps = itertools.pairwise(run.path)
+    return sum(math.remainder(after.yaw - before.yaw, math.tau) for before, after in steps)
+
+
+def _is_round(run: Recording) -> bool:
+    """Whether the robot came once round a circle, whatever its radius is."""
+    return _turned(run) >= ROUND and travelled(run) >= ROUND * RADIUS
 
 
 def _how_to_read(wrong: str) -> str:
@@ -110,4 +126,4 @@ def _why_no_circle(run: Recording, turned: float) -> str:
     last = stamps(run.messages(COMMANDS))[-1]
     if last < run.ended.stamp - 2 * TIMEOUT:
         return f"The last command came at {last:.3g} s: without --times it goes on until it is stopped."
-    return "Radius = speed / turn. For 0.5 m at 0.3 m/s, how many rad/s is that?"
+    return WIDE

@@ -79,6 +79,16 @@ def with_names_of_its_own():
     drawn(other={"reader": reader, "control": control})
 
 
+def decision_takes_the_nearest_order():
+    """A design of its own: decision hears where the robot is."""
+    drawn(more=[("decision", subscribes(*POSE))])
+
+
+def control_has_a_collision_monitor():
+    """A design of its own: control hears the scans, too, as Nav2's collision monitor does."""
+    drawn(more=[("control", SCAN)])
+
+
 class Part(Node):
     """A node that is given its ends."""
 

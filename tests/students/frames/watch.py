@@ -42,6 +42,27 @@ def main():
     rclpy.spin(Watcher())
 
 
+def launch_in_the_namespace_of_the_tower():
+    """A design of its own: cmd_vel is a relative name, so the namespace decides whose commands these are."""
+    return Process(Watcher, namespace="/tower", parameters={"target": "scout"})
+
+
+def launch_in_a_namespace_without_a_slash():
+    return Process(Watcher, namespace="tower", parameters=[{"target": "scout"}])
+
+
+def launch_with_a_namespace_in_words():
+    return Process(Watcher, arguments=["--ros-args", "-r", "__ns:=/tower", "-p", "target:=scout"])
+
+
+def in_the_namespace_of_the_scout():
+    return Process(Watcher, namespace="/scout", parameters={"target": "scout"})
+
+
+def in_the_namespace_without_a_target():
+    return Process(Watcher, namespace="/tower")
+
+
 def as_it_is():
     return Process(Watcher)
 

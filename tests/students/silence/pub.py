@@ -23,6 +23,10 @@ Whole = terminal(
 Named = terminal(
     f"ros2 topic pub -r 4 -n circler /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'  # round"
 )
+OnceRound = terminal(  # a design of its own: exactly one round, and then it ends
+    f"ros2 topic pub -r 10 -t 105 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'"
+)
+
 OnceASecond = terminal(f"ros2 topic pub /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
 Once = terminal(f"ros2 topic pub --once /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
 StopsEarly = terminal(
@@ -48,6 +52,10 @@ ToTheRight = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3
 OnTheSpot = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{angular: {{z: 0.6}}}}'")
 TooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.3}}}}'")
 TooFast = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.5}}, angular: {{z: 1.0}}}}'")
+MuchTooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.15}}}}'")
+NearlyRound = terminal(
+    f"ros2 topic pub -r 10 -t 90 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'"
+)
 Listens = terminal("ros2 topic echo /odom")
 ABitTooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.4}}}}'")
 
