@@ -7,7 +7,7 @@ from grader.worlds.carts import pushed_cart
 from sim.evidence import Recording
 
 LIMIT = 10.0  # N
-SOON, NEAR, STEADY = 3.0, 0.1, 0.05  # s, m, rad
+SOON, NEAR, STEADY = 3.0, 0.05, 0.05  # s, m, rad
 
 push = Exercise("push", "Whatever comes", world=pushed_cart, seconds=19, seeds=(1, 2), waits=False)
 
@@ -18,7 +18,7 @@ def pushes(run: Recording) -> None:
     publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
 
 
-@push.check(7, after=pushes)
+@push.check(5, after=pushes)
 def keeps_it_up(run: Recording) -> None:
     """The pole stands for 19 s, though somebody pushes the cart twice."""
     stands(run)
@@ -30,9 +30,9 @@ def spares_the_motor(run: Recording) -> None:
     keeps_to_limits(run, LIMIT)
 
 
-@push.check(3, after=keeps_it_up)
+@push.check(5, after=keeps_it_up)
 def comes_back(run: Recording) -> None:
-    """Three seconds after each push the cart is back, within 10 cm of the middle, and stays there."""
+    """Three seconds after each push the cart is back, within 5 cm of the middle, and stays there."""
     still_stands(run)
     with hinting("More weight on the place brings it back sooner; with it, that on the speed has to grow."):
         for begin, end in _after_pushes(run):

@@ -10,8 +10,11 @@ from grader.geometry import Point
 from grader.responses import from_course
 from grader.worlds.arms import desk_of
 from sim.evidence import Goal, Recording
+from sim.nanoseconds import in_seconds
 
 TOLERANCE = 0.015  # m
+SOON, JUMPS = 1.0, 0.5  # s: a first point so early is a jump, and the credit for it
+JUMP = "The arm needs time to get to the first point: give it 3 s, or it jumps there, as fast as it can."
 
 draw = Exercise("draw", "An arm that draws", world=desk_of, seconds=10, companions=designer, seeds=(1, 2))
 
@@ -55,7 +58,14 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
 })
 def draws_the_figure(run: Recording) -> None:
     """The tip draws the whole figure, and nothing else once it has begun, within 1.5 cm."""
-    draws(run, _figure(run), tolerance=TOLERANCE)
+    first = in_seconds(_points(run)[0].time_from_start)
+    try:
+        draws(run, _figure(run), tolerance=TOLERANCE)
+    except Missed as missed:
+        missed.credit = min(missed.credit, JUMPS) if first < SOON else missed.credit
+        raise
+    if first < SOON:
+        raise Missed("the first point at 3 s", f"it at {first:.3g} s", JUMP, credit=JUMPS)
 
 
 @draw.check(5, after=draws_the_figure)

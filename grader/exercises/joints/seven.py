@@ -9,7 +9,7 @@ from sim.evidence import Recording
 
 COMMANDS = "/joint_commands"
 POSITIONS = [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]  # rad
-PERIOD = 2.0  # s
+PERIOD, HELD = 2.0, 0.5  # s: between two, and as long as no callback takes
 
 seven = Exercise("seven", "Seven positions", world="joint", seconds=20, may_end=True)
 
@@ -42,6 +42,12 @@ def sends_all_seven(run: Recording) -> None:
 @seven.check(3, after=sends_all_seven)
 def every_two_seconds(run: Recording) -> None:
     """The first one comes at 2 s, and then one every 2 s."""
+    own = [row for row in run.callbacks if row.node not in run.course_nodes]
+    held = max((row.duration for row in own), default=0.0)
+    if held > HELD:
+        hint = ("The timer calls send() again and again: publish one position, and return. While a callback "
+                "sleeps, its node receives nothing, not even a stop.")
+        raise Missed("a callback that returns at once", f"one that held the node for {held:.3g} s", hint)
     stamps = [row.stamp for row in run.messages(COMMANDS)]
     for number, (before, stamp) in enumerate(itertools.pairwise([run.started_at, *stamps]), start=1):
         if abs(stamp - before - PERIOD) > 0.05:

@@ -28,6 +28,19 @@ class Balancer(Node):
         self.publisher.publish(Float64(data=max(-self.limit, min(self.limit, effort))))
 
 
+class ByPlacedPoles(Balancer):
+    """A design of its own: what the place asks for has a limit, so that a far cart never upsets the pole."""
+
+    def on_joints(self, msg):
+        (x, angle), (speed, rate) = msg.position, msg.velocity
+        home = max(-6.0, min(6.0, 10.0 * x + 11.0 * speed))
+        self.push(home - 60.0 * angle - 9.0 * rate)
+
+
+class WithoutThePlace(Balancer):
+    gains = 60.0, 9.0, 0.0, 11.0
+
+
 class Cascade(Balancer):
     """The place says how far to lean, and the lean says how hard to push."""
 

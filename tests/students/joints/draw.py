@@ -70,7 +70,7 @@ class Artist(Node):
 
 
 class ByTheCosineLaw(Artist):
-    """The shoulder's angle by the law of cosines, too."""
+    """A design of its own: the shoulder's angle by the law of cosines, too."""
 
     def inverse(self, x, y):
         far = math.hypot(x, y)
@@ -153,6 +153,13 @@ class FirstPointAtZero(Artist):
 
     def time(self, index):
         return 0.02 * index
+
+
+class JumpsToTheFirstPoint(Artist):
+    """The first point at once, the others as they should be."""
+
+    def time(self, index):
+        return super().time(index) if index else 0.0
 
 
 class HalfOfIt(Artist):

@@ -1,6 +1,7 @@
 """Publishers of seven positions: right ones, and wrong ones named by their defect."""
 
 import math
+import time
 
 import rclpy
 from rclpy.node import Node
@@ -40,6 +41,30 @@ class EndsWithTheLast(JointPublisher):
         super().send()
         if self.index == len(self.positions):
             self.finish()
+
+
+class ByAGenerator(JointPublisher):
+    """A design of its own: the positions are a generator, and its end ends the program."""
+
+    def __init__(self):
+        super().__init__()
+        self.rest = iter(self.positions)
+
+    def send(self):
+        try:
+            self.publisher.publish(self.kind(data=next(self.rest)))
+        except StopIteration:
+            self.finish()
+
+
+class SleepsInTheCallback(JointPublisher):
+    """One call of the timer sends them all."""
+
+    def send(self):
+        for position in self.positions:
+            self.publisher.publish(self.kind(data=position))
+            time.sleep(2.0)
+        self.finish()
 
 
 class _Plain(Node):
