@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 import math
+
+import numpy as np
 
 from grader.checks.check import Missed
 from grader.checks.topics import publishes, within
@@ -24,6 +27,10 @@ TOO_WEAK = (
 SWINGS = (
     "It swung higher and higher. P alone does: D brakes, a gain on the rate at which the pole turns, and of "
     "the same sign. If it is there, make it larger."
+)
+PLACE_TURNED = (
+    "Its place counts with the wrong sign, which drives it away: to come back from the right it first has to "
+    "push to the right, so that the pole leans to the left. Add gain * x for the place, with a plus."
 )
 NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state comes."
 
@@ -133,6 +140,21 @@ def keeps_deadline(
     return max(b - a for a, b in itertools.pairwise(moments))
 
 
+def _place_is_turned(run: Recording, fell: Seconds) -> bool:
+    """Whether efforts grow to the left the farther to the right the cart is, by a fit to the joint states."""
+    states = [row for row in run.messages("/joint_states") if row.stamp < fell]
+    stamps = [row.stamp for row in states]
+    sent = [(bisect.bisect_right(stamps, row.stamp), row) for row in run.messages(EFFORT) if row.stamp < fell]
+    pairs = [(states[index - 1].message, row.message.data) for index, row in sent if index]
+    limit = max((abs(push) for _, push in pairs), default=0.0)
+    free = [(state, push) for state, push in pairs if abs(push) < 0.99 * limit]
+    if len(free) < 20:
+        return False
+    known = [[*state.position[:2], *state.velocity[:2], 1.0] for state, _ in free]
+    gains, *_ = np.linalg.lstsq(np.array(known), np.array([push for _, push in free]), rcond=None)
+    return bool(gains[0] < -0.5)
+
+
 def _why_it_fell(run: Recording, fell: Seconds) -> str:
     """The causes that can be seen in the efforts and the cart."""
     sent = [(heard.stamp, heard.message.data) for heard in run.messages(EFFORT) if heard.stamp < fell]
@@ -150,6 +172,7 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
         )
     end = run.world.machine.track_length / 2
     if any(abs(x) > end - 0.01 for stamp, x in places(run) if stamp <= fell):
-        return "The cart rolled to the end of the track, which stopped it. Its place has to count, too."
+        rolled = "The cart rolled to the end of the track, which stopped it."
+        return f"{rolled} {PLACE_TURNED if _place_is_turned(run, fell) else 'Its place has to count, too.'}"
     swings = {angle > 0 for stamp, angle in lean(run) if stamp < fell and abs(angle) > 0.02}
     return TOO_WEAK if len(swings) == 1 else SWINGS

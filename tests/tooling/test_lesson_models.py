@@ -6,7 +6,7 @@ from lifecycle_msgs.srv import ChangeState
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 
-from sim import run
+from sim import Process, run
 from tests.tooling.test_lessons import cells
 
 
@@ -86,3 +86,22 @@ def test_a_lifecycle_node_that_fails_while_it_drives_stops():
     recording = managed(motor_that_fails(), "configure", "activate")
     assert drives(recording, 3) == []
     assert recording.messages("/cmd_vel")[-1].message == Twist()
+
+
+class Stopper(Node):
+    """Logs its gap."""
+
+    def __init__(self):
+        super().__init__("stopper")
+        self.get_logger().info(f"{self.declare_parameter('gap', 0.3).value}")
+
+
+@pytest.mark.parametrize(("last", "gap"), [("/right/stopper", "1.5"), ("/**", "0.5")])
+def test_of_two_parts_of_a_settings_file_the_later_one_counts(last, gap, tmp_path):
+    parts = sorted(("/**", "/right/stopper"), key=lambda part: part == last)
+    values = {"/**": 0.5, "/right/stopper": 1.5}
+    text = "".join(f"{part}:\n  ros__parameters:\n    gap: {values[part]}\n" for part in parts)
+    (tmp_path / "stopper.yaml").write_text(text)
+    words = ["--ros-args", "--params-file", str(tmp_path / "stopper.yaml")]
+    recording = run(Process(Stopper, namespace="/right", arguments=words), seconds=1, quiet=True)
+    assert [line.text for line in recording.logs if line.node == "right.stopper"] == [gap]

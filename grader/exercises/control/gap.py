@@ -57,7 +57,7 @@ def filters(run: Recording) -> None:
 
 
 @gap.check(4, after=publishes_both, hints={
-    SIGN: lambda run: run.messages("/speed")[0].message.data < 0,
+    SIGN: lambda run: _drives_the_wrong_way(run),
     WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,
     "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall.":
         lambda run: True,
@@ -105,6 +105,12 @@ def _distances(run: Recording, begin: Seconds) -> list[tuple[float, Seconds]]:
     """How far (m) the wall was ahead of the robot from a stamp on, and when."""
     wall = run.world.bounds[2]
     return [(wall - pose.x, pose.stamp) for pose in run.path if pose.stamp >= begin - EDGE]
+
+
+def _drives_the_wrong_way(run: Recording) -> bool:
+    """Whether the first speeds have another sign than the errors of the distances beside them."""
+    pairs = zip(run.messages("/distance")[:20], run.messages("/speed")[:20], strict=False)
+    return sum((row.message.data - TARGET) * speed.message.data < 0 for row, speed in pairs) > 10
 
 
 def _speed_on_arrival(run: Recording) -> float:

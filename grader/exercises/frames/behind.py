@@ -8,13 +8,17 @@ from grader.checks.frames import TF
 from grader.companions.transforms import localization
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Pose2D
+from grader.responses import from_student, last_before
 from grader.worlds.frame_worlds import convoy, parked
 from sim.evidence import Recording, Seconds
 
 GAP, BAND = 1.0, 0.25  # m
 NEAREST, FARTHEST = 0.7, 1.4  # m
-SETTLED = 9.0  # s
+SETTLED, CLEAR = 9.0, 0.2  # s; rad, from which on the side is clear
 WHY_OFF = {
+    "It looks from the leader: lookup_transform(target, source, time) says where the source is, seen from "
+    "the target. The target is the robot's own frame, base_link, and the source the leader's.":
+        lambda run, gaps: _looks_from_the_leader(run),
     "The robot hardly moves. Does the lookup fail each time? Log the error: it says why. And is the "
     "robot's own frame, base_link, the target?":
         lambda run, gaps: math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1,
@@ -71,6 +75,25 @@ def touches_nothing(run: Recording) -> None:
     """The robot touches nothing, and nobody."""
     keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
     lasts(run, "/cmd_vel")
+
+
+def _looks_from_the_leader(run: Recording) -> bool:
+    """Whether the robot turns to where the point would be, were the two frames swapped."""
+    turns = []
+    for row in from_student(run, "/cmd_vel"):
+        robot, leader = (last_before(path, row.stamp) for path in (run.path, run.tracks["leader"]))
+        if robot and leader:
+            there, here = Pose2D(*robot[1:]), Pose2D(*leader[1:])
+            right, swapped = _side(there, here), _side(here, there)
+            if min(abs(right), abs(swapped)) > CLEAR and right * swapped < 0:
+                turns.append(row.message.angular.z * swapped)
+    return len(turns) > 5 and sum(turn > 0 for turn in turns) > 0.8 * len(turns)
+
+
+def _side(own: Pose2D, other: Pose2D) -> float:
+    """The angle (rad) at which a robot sees the point behind another one."""
+    x, y = other.point((-GAP, 0.0))
+    return math.remainder(math.atan2(y - own.y, x - own.x) - own.yaw, math.tau)
 
 
 def _gaps(run: Recording) -> dict[Seconds, float]:

@@ -16,6 +16,7 @@ from sim.nanoseconds import in_seconds
 SOON = 0.5  # s
 SLOW = 1.5  # times as long as needed, and
 REST = 0.5  # s more, is still fine
+OVERTAKEN = "This goal took so long that the next path came before its end: see the line on the speed first."
 
 trajectory = Exercise("trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher,
                       seeds=(1, 2), waits=False)
@@ -29,12 +30,13 @@ class Lesson(NamedTuple):
 
 
 class Part(NamedTuple):
-    """The way to a point of a goal: how long it takes, and how long it should take at least."""
+    """The way to a point of a goal: how long it takes, how long it should, and with one joint at a time."""
 
     point: int  # 1 for the first
     begin: Seconds  # since the start of the goal
     end: Seconds
     needed: Seconds
+    in_turn: Seconds
 
 
 @trajectory.check(2)
@@ -75,6 +77,8 @@ def by_their_names(run: Recording) -> list[Lesson]:
         lambda run, parts, wrong: wrong.begin and same(wrong.end, wrong.needed, 0.02),
     "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.":
         lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1,
+    "Both joints turn at the same time: the way is the larger of the two, max(...), and not their sum.":
+        lambda run, parts, wrong: same(wrong.end - wrong.begin, wrong.in_turn, 0.02),
     "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
     "the arm is now, by /joint_states and by name; and the next one where the point before is.":
         lambda run, parts, wrong: wrong.end - wrong.begin < wrong.needed,
@@ -132,7 +136,8 @@ def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
         if sent != [outcome]:
             expected = f"“{outcome}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path"
             saw = ", ".join(f"“{text}”" for text in sent[:4]) or "nothing"
-            raise Missed(expected, saw, about=(outcome, sent))
+            overtaken = any(path.stamp < other.stamp < goal.ended for other, _ in lessons)
+            raise Missed(expected, saw, OVERTAKEN if overtaken else "", about=(outcome, sent))
 
 
 def _lessons(run: Recording) -> list[Lesson]:
@@ -165,8 +170,8 @@ def _parts(run: Recording, goal: Goal) -> list[Part]:
     begin, before, found = 0.0, dict(zip(state.name, state.position, strict=True)), []
     sent = goal.request.trajectory
     for point, positions in zip(sent.points, _by_name(sent), strict=True):
-        needed = max(abs(positions[name] - before[name]) for name in positions) / CRUISE
+        ways = [abs(positions[name] - before[name]) / CRUISE for name in positions]
         end = in_seconds(point.time_from_start)
-        found.append(Part(len(found) + 1, begin, end, needed))
+        found.append(Part(len(found) + 1, begin, end, max(ways), sum(ways)))
         begin, before = end, positions
     return found

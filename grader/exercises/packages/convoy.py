@@ -39,7 +39,8 @@ def _ignores_namespaces(run: PackageRun) -> bool:
 
 
 @convoy.check(5, guess={
-    "No namespace is put before a topic with a slash: in the program it is `drive`.": _ignores_namespaces,
+    "No namespace is put before a topic with a slash: in the program it is `drive`, and it is remapped to "
+    "cmd_vel, both without a slash.": _ignores_namespaces,
     "It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.": lambda _: True,
 })
 def drives_both(run: PackageRun) -> None:

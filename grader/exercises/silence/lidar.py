@@ -1,6 +1,7 @@
 """A sensor's QoS profile: receive a lidar over a lossy network, and count what got lost."""
 
 import bisect
+import itertools
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes
@@ -8,7 +9,7 @@ from grader.checks.work import worked_until
 from grader.companions.radios import RADIO, RadioLidar
 from grader.exercise import Exercise
 from grader.responses import EDGE, from_course
-from sim.evidence import Recording, Seconds
+from sim.evidence import Recording, Seconds, since_start
 
 SCAN, COUNT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Int32"
 BEGUN, MOST = 1.0, 0.8  # s until a node has begun; of the scans after that, how many must be sent to it
@@ -21,6 +22,7 @@ class Counted(NamedTuple):
     """A scan that arrived, how many had been lost since the first one, and the published count."""
 
     stamp: Seconds
+    measured: Seconds
     lost: int
     count: int
 
@@ -57,7 +59,10 @@ def receives_every_scan(run: Recording) -> list[Counted]:
     "Two scans in a row are one scan_time apart, and nothing got lost: take 1 away from each.":
         lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1,
     "That is how many came. Lost are those that should have come in between.":
-        lambda run, counted: counted[-1].count in (len(counted), len(counted) - 1),
+        lambda run, counted: all(b.count - a.count == 1 for a, b in itertools.pairwise(counted)),
+    "One scan in 0.1 s is another lidar: how long one takes is in each scan, scan.scan_time.":
+        lambda run, counted: counted[-1].count == counted[0].count + sum(
+            round((b.measured - a.measured) / 0.1) - 1 for a, b in itertools.pairwise(counted)),
     "That is what was lost before the last scan alone: add it up, self.missed += ...":
         lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost,
     "How many scans fit into a gap is its seconds divided by scan.scan_time, rounded. The gap is that "
@@ -93,6 +98,7 @@ def _requires_listening(run: Recording, sent: int) -> None:
 def _counted(run: Recording) -> list[Counted]:
     """The published counts, each with the scan that had just arrived: only one can have."""
     sent = [row.stamp for row in from_course(run, "/scan")]
+    scans = [since_start(row.message.header.stamp) for row in from_course(run, "/scan")]
     found: list[Counted] = []
     first = 0
     for count, row in enumerate(run.messages("/missed")):
@@ -100,5 +106,5 @@ def _counted(run: Recording) -> list[Counted]:
         if number < 0 or row.stamp - sent[number] > LATEST + EDGE:
             raise Missed("a count when a scan comes", f"one at {row.stamp:.3g} s, when none came")
         first = number if count == 0 else first
-        found.append(Counted(row.stamp, number - first - count, row.message.data))
+        found.append(Counted(row.stamp, scans[number], number - first - count, row.message.data))
     return found

@@ -51,7 +51,7 @@ class CutsTheSum(Stopper):
 
 
 class BackCalculates(Stopper):
-    """What is cut away is taken from the sum."""
+    """A design of its own: what is cut away is taken from the sum."""
 
     def speed(self, error):
         self.sum += error * self.period
@@ -83,6 +83,12 @@ class WindsUp(Stopper):
     def speed(self, error):
         self.sum += error * self.period
         return max(-self.limit, min(self.limit, self.p * error + self.i * self.sum))
+
+
+class WindsUpFromZero(WindsUp):
+    """The filter begins at 0, so the first speeds are backwards; what leads into the wall is the sum."""
+
+    first = 0.0
 
 
 class POnly(Stopper):

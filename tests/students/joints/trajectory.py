@@ -107,7 +107,7 @@ class WithAwait(Student):
 
 
 class InItsOwnOrder(Student):
-    """Sorts the joints, and their positions with them."""
+    """A design of its own: sorts the joints, and their positions with them."""
 
     def names(self, path):
         self.order = sorted(range(2), key=lambda index: path.joint_names[index])
@@ -163,6 +163,13 @@ class NoTimes(Student):
 class TwoSecondsEach(Student):
     def later(self, time, needed):
         return time + 2.0
+
+
+class SumOfTheWays(Student):
+    """As if one joint turned after the other."""
+
+    def way(self, before, after):
+        return sum(abs(b - a) for a, b in zip(before, after, strict=False))
 
 
 class FromZero(Student):

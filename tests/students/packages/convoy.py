@@ -82,7 +82,7 @@ RIGHT = package(
 PARTS = (*PARTS, "GROUPS")
 
 Convoy = Workspace(__name__, RIGHT)
-InGroups = Workspace(__name__, changed(RIGHT, FILE, new=GROUPS))
+InGroups = Workspace(__name__, changed(RIGHT, FILE, new=GROUPS))  # a design of its own
 SpelledOut = Workspace(
     __name__,
     changed(
@@ -102,6 +102,8 @@ ArgumentForBoth = Workspace(
 )
 OtherDefault = Workspace(__name__, changed(RIGHT, FILE, 'default_value="0.5"', 'default_value="0.7"'))
 WholeNumber = Workspace(__name__, changed(RIGHT, FILE, 'stopper("right", 1.0)', 'stopper("right", 1)'))
+NumberAsText = Workspace(__name__, changed(RIGHT, FILE, 'stopper("right", 1.0)', 'stopper("right", "1.0")'))
+WithASlash = Workspace(__name__, changed(RIGHT, FILE, '("drive", "cmd_vel")', '("drive", "/cmd_vel")'))
 OneTooMany = Workspace(
     __name__,
     changed(RIGHT, FILE, 'stopper("right", 1.0),', 'stopper("right", 1.0), stopper("", 0.5),'),

@@ -56,7 +56,7 @@ InOneText = Workspace(
     __name__,
     changed(RIGHT, SETUP, f"[{POINTS}]", "'sensor=station.sensor:main\\ndisplay=station.display:show'"),
 )
-ByTheClasses = Workspace(
+ByTheClasses = Workspace(  # a design of its own
     __name__,
     changed(
         changed(RIGHT, SETUP, POINTS, "'sensor = station.start:one', 'display = station.start:other'"),
@@ -75,6 +75,10 @@ WithASlash = Workspace(__name__, changed(RIGHT, SETUP, "station.sensor:main", "s
 Swapped = Workspace(
     __name__,
     changed(RIGHT, SETUP, POINTS, "'sensor = station.display:show', 'display = station.sensor:main'"),
+)
+NoComma = Workspace(__name__, changed(RIGHT, SETUP, ", 'display = station", " 'display = station"))
+NoFunctions = Workspace(
+    __name__, changed(RIGHT, SETUP, POINTS, "'sensor = station.sensor', 'display = station.display:show'")
 )
 OneTooMany = Workspace(__name__, changed(RIGHT, SETUP, POINTS, f"{POINTS}, 'station = station.sensor:main'"))
 NoSetupCfg = Workspace(__name__, changed(RIGHT, CFG))
