@@ -6,6 +6,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float32
 
 TEMPERATURE, VOLTS = "/temperature", "/volts"
+EDGES = 0.0, 0.5, 3.3  # V: the two limits, and what becomes 0 degrees
 
 
 class WeatherStation(Node):
@@ -28,5 +29,7 @@ class VoltageProbe(Node):
         voltages = [round(rng.uniform(0.0, 3.3), 3) for _ in range(60)]
         for _ in range(12):
             voltages[rng.randrange(50, 60)] = rng.choice([-0.2, -0.01, 3.35, 5.0])
+        for place, volts in zip(rng.sample(range(42, 58), len(EDGES)), EDGES, strict=True):
+            voltages[place] = volts
         publisher = self.create_publisher(Float32, VOLTS, 10)
         self.create_timer(0.25, lambda: publisher.publish(Float32(data=voltages.pop())))

@@ -5,21 +5,23 @@ from functools import partial
 
 from grader.checks import Missed, publishes
 from grader.checks.packages import ROS, imports, package_of, parsed
-from grader.companions.package_sensors import VOLTS, VoltageProbe
+from grader.companions.package_sensors import EDGES, VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
 from grader.workspace.installation import ros2_run
+from grader.workspace.near_misses import entry_points
 from grader.workspace.package import PackageRun
 
 DEGREES = "/celsius"
 MODULE, PLACE = "gauge.convert", "gauge/gauge/convert.py"
 BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) where a message comes."
+EDGE = "0 V and 3.3 V belong to the range, and 0 degrees is a temperature: `if value is not None:`."
 SOON, SAME = 0.2, 0.05  # s, degrees
 
 gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
     Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
              companions=lambda seed: [partial(VoltageProbe, seed)]),
-])
+], near_misses=[partial(entry_points, commands=["gauge"])])
 voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")
 
 
@@ -40,6 +42,8 @@ def converts(run: PackageRun) -> None:
             voltage.expects_nothing(f"nothing for {volts:.2f} V", hint, saw=saw)
         elif not found or not same(found[0], 100.0 * volts - 50.0, SAME):
             hint = "celsius(volts) is 100 * volts - 50."
+            if not found and any(same(volts, edge, 1e-6) for edge in EDGES):
+                hint = EDGE
             raise Missed(f"{100.0 * volts - 50.0:.1f} for {volts:.3f} V", saw, hint)
 
 

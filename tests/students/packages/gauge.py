@@ -2,7 +2,7 @@
 
 from tests.students.workspaces import Workspace, changed, package
 
-PARTS = ("NODE", "CONVERT", "RIGHT", "GAUGE", "MODULE", "INSIDE")
+PARTS = ("RAISES", "BEGIN", "TEST", "TRY", "NODE", "CONVERT", "RIGHT", "GAUGE", "MODULE", "INSIDE")
 NODE = """\
 import rclpy
 from rclpy.node import Node
@@ -73,6 +73,12 @@ KnowsMessages = Workspace(
     __name__,
     changed(RIGHT, MODULE, "def celsius", "from std_msgs.msg import Float32  # noqa\n\n\ndef celsius"),
 )
+RAISES = changed(RIGHT, MODULE, "return None", "raise ValueError(volts)")
+BEGIN, TEST = "        value = celsius(msg.data)\n", "        if value is not None:\n            self"
+TRY = f"        try:\n    {BEGIN}        except ValueError:\n            return\n        self"
+ByAnException = Workspace(__name__, changed(RAISES, GAUGE, BEGIN + TEST, TRY))  # a design of its own
+LosesZeroDegrees = Workspace(__name__, changed(RIGHT, GAUGE, "if value is not None:", "if value:"))
+OpenLimits = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "0.0 < volts < 3.3"))
 NoOffset = Workspace(__name__, changed(RIGHT, MODULE, " - 50.0", ""))
 BrokenCable = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "-9.0 <= volts <= 9.0"))
 Silent = Workspace(__name__, changed(RIGHT, GAUGE, '"celsius", 10', '"kelvin", 10'))
