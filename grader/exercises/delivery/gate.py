@@ -10,7 +10,7 @@ from grader.checks.motion import length
 from grader.companions.faulty_perception import GOAL, PEOPLE, POSE, partners
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
-from grader.responses import Window, from_course, last_before, top_speed
+from grader.responses import Window, from_course, from_student, last_before, top_speed
 from grader.worlds.warehouses import floor_of
 from sim.evidence import Recording, Seconds, since_start
 
@@ -21,6 +21,8 @@ SLOW, MARGIN = 0.2, 0.04  # m/s
 STARTS = 4.0  # s, within which the robot drives on
 STEP = 0.05  # s
 OLD, NEAR, WIDE = 0.5, 1.5, 2.5  # s; m: stands, drives slowly
+NO_STOPS = ("When it may not drive, it publishes nothing, and the robot keeps to its last command: publish "
+            "zeros then, each time drive is called.")
 ABOUT = 0.05  # m; what is nearer to a limit is on neither side
 
 gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, companions=partners, seeds=(2,))
@@ -74,7 +76,11 @@ def stands_without_new_messages(run: Recording) -> None:
 @gate.check(3, after=arrives)
 def publishes_stops_and_goes_on(run: Recording) -> None:
     """It publishes ten times a second in every case, and drives on when it may."""
-    rate(run, OUT, 10.0, tolerance=0.15)
+    try:
+        rate(run, OUT, 10.0, tolerance=0.15)
+    except Missed as missed:
+        missed.hint = missed.hint if _publishes_while_it_stands(run) else NO_STOPS
+        raise
     changes = [stamp for (_, before), (stamp, after) in itertools.pairwise(_goals(run)) if before != after]
     for window, why in _windows(run, _allowed):
         if window.end - window.begin < STARTS or any(map(window.contains, changes)):
@@ -83,6 +89,13 @@ def publishes_stops_and_goes_on(run: Recording) -> None:
             expected = f"a robot that drives from {window.begin:.3g} s on, as {why}"
             hint = "The gate is asked anew each time: what stopped the robot before doesn't count any more."
             raise Missed(expected, f"it stood until {window.end:.3g} s", hint, picture="path")
+
+
+def _publishes_while_it_stands(run: Recording) -> bool:
+    """Whether the student's program publishes anything when the robot has to stand."""
+    windows = [window for cause in (_close, _old) for window, _ in _windows(run, cause)]
+    inner = [Window(window.begin + BRAKING / 2, window.end - BRAKING / 2) for window in windows]
+    return any(window.rows(from_student(run, OUT)) for window in inner)
 
 
 def _goals(run: Recording) -> list[tuple[Seconds, Point]]:
@@ -165,4 +178,5 @@ def _require_at_most(run: Recording, speed: float, cause: Callable[[KnownState],
         if top.linear > speed:
             expected = f"at most {speed:.2g} m/s from {window.begin:.3g} s on, as {why}"
             saw = f"{top.linear:.2f} m/s at {top.stamp:.3g} s"
+            hint = hint if _publishes_while_it_stands(run) else NO_STOPS
             raise Missed(expected, saw, hint, picture="path", unsafe=unsafe)

@@ -27,6 +27,9 @@ EACH = 3  # every third message is judged: what is in view takes time to compute
 MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
 WALKS, STANDS = 0.4, 0.05  # m/s
 SETTLED = 6.0  # s until what stands is known to stand
+EXACT = 0.03  # m
+FROM_THE_MIDDLE = ("The rays begin where the lidar is: give points_of the place of base_scan in map, not "
+                   "that of base_link.")
 PAUSE = 2.0  # s without news on a topic
 
 perceive = Exercise("perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner,
@@ -87,6 +90,7 @@ def finds_what_stands(run: Recording) -> None:
         for box in [] if person_in_view else boxes:
             if not _has(points, box):
                 expected = f"a point of the box at {_text(box)}"
+                hint = FROM_THE_MIDDLE if _begins_at_base_link(run, row) else hint
                 raise Missed(expected, f"none within {REACH} m of it at {row.stamp:.3g} s", hint)
         gaps = clearance(run.world, *np.array(points).T) if points else []
         mapped = [point for point, gap in zip(points, gaps, strict=True) if gap < MAPPED]
@@ -111,9 +115,13 @@ def finds_who_walks(run: Recording) -> None:
             hint = "What has stood there all the time doesn't walk: compare with half a second before."
             saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
             raise Missed("no box on /people that has stood there for six seconds", saw, hint)
+    sometimes = any(_has(_points(row), _nearest(_person(run), _time(row))[1:3]) for row in seen)
+    hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
+    if sometimes:
+        hint = "Keep the points that moved, each with its time, for five seconds: at times they are missing."
     for row in seen:
-        hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
-        _require_person(run, row, "somebody who walks", hint)
+        turned = _begins_at_base_link(run, row)
+        _require_person(run, row, "somebody who walks", FROM_THE_MIDDLE if turned else hint)
     _require_three(run, seen, "somebody who walks")
 
 
@@ -143,6 +151,24 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
         return not any(far_from(now, before, NEW) for before, now in zip(seen, seen[BACK:], strict=False))
 
     return [box for box in _boxes_in_view(run) if is_plain(box)]
+
+
+def _begins_at_base_link(run: Recording, row: Message) -> bool:
+    """Whether the obstacles of a scan are where its rays would end, did they begin at base_link."""
+    scan = next((one for one in from_course(run, "/scan") if _nanoseconds(one) == _nanoseconds(row)), None)
+    told = next((one for one in from_student(run, OBSTACLES) if _nanoseconds(one) == _nanoseconds(row)), None)
+    if scan is None or told is None or not _points(told):
+        return False
+    robot = _nearest(run.path, _time(row))[1:]
+    off = [_off(_points(told), points_of(scan.message, pose))
+           for pose in (robot, run.world.lidar.mounted_at(robot))]
+    return off[0] < EXACT < off[1]
+
+
+def _off(points: list[Point], rays: np.ndarray) -> float:
+    """The mean distance (m) of points from the nearest of the rays' ends."""
+    gaps = np.linalg.norm(np.array(points)[:, None] - rays[None], axis=2)
+    return float(gaps.min(axis=1).mean())
 
 
 def _require_person(run: Recording, row: Message, who: str, hint: str) -> None:

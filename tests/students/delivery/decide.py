@@ -96,7 +96,7 @@ class ForgetsWhatIsOver(Decision):
 
 
 class OneClassForEachState(Node):
-    """Without a superclass of ours; four times a second it looks, and publishes every other time."""
+    """A design of its own: states are classes; it looks four times a second."""
 
     def __init__(self):
         super().__init__("chief")

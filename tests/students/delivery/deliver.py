@@ -67,7 +67,7 @@ class Tree(Decision):
         return self.tree(self)
 
 
-BehaviourTree = Team(Perception, Tree, Control)
+BehaviourTree = Team(Perception, Tree, Control)  # a design of its own
 
 
 class Charger(Node):

@@ -95,7 +95,7 @@ class Careful(Control):
 
 
 class Smooth(Control):
-    """The nearer, the slower."""
+    """A design of its own: the nearer, the slower."""
 
     def allowed(self, nearest):
         return 0.0 if nearest < 1.5 else min(0.5, 0.1 + 0.1 * (nearest - 1.5) / 1.0 + 0.3 * (nearest > 2.5))

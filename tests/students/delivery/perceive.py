@@ -88,7 +88,7 @@ class ForgetsWhereSomebodyWalksNow(Perception):
 
 
 class KeepsLonger(Perception):
-    """A second more, and another half second for comparison."""
+    """A design of its own: a second more, and another half second for comparison."""
 
     keeps = 5.4
 
@@ -187,6 +187,15 @@ class ForgetsAtOnce(Perception):
     """Who walks is told of while walking."""
 
     keeps = 0.5
+
+
+class KeepsForAMoment(Perception):
+    """What moved is forgotten after a moment."""
+
+    keeps = 0.05
+
+    def moved(self, now, strange):
+        return super().moved(now, strange)[::7]
 
 
 class ComparesWithTheLastScan(Perception):
