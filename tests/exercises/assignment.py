@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import functools
 import re
+from pathlib import Path
 from types import ModuleType
 from typing import Any, ClassVar
 
@@ -33,6 +34,11 @@ PRIVATE_SECONDS = 1500.0  # of simulated time, for which an exercise is tried wi
 LEAST_ORDERS, ORDERS_OF_PACKAGES = 50, 8  # tried with each exercise; tests.exercises.orders tries more
 ORDERS = {"13_delivery": 200}
 LONG = 15.0  # s of simulated time, of all runs of an exercise
+# The docstring of a node says so, or the line that makes it.
+DESIGN = re.compile(
+    r'^(?:class|def) (\w+)\b[^\n]*:\n    """A design of its own: |^(\w+) = [^\n]*# a design of its own', re.M
+)
+FIRST_WITH_DESIGNS = "03"
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
 
@@ -175,6 +181,12 @@ class Assignment:
 
     def test_a_page_speaks_of_every_student_of_its_exercise(self, exercise):
         assert list(page(self.topic(), exercise)) == list(students(self.topic(), exercise))
+
+    def test_a_right_node_has_a_design_that_neither_the_lesson_nor_the_solution_shows(self, exercise):
+        module = Path(__file__).parents[1] / "students" / self.topic() / f"{exercise}.py"
+        source = module.read_text(encoding="utf-8")
+        if self.folder >= FIRST_WITH_DESIGNS:
+            assert {first or second for first, second in DESIGN.findall(source)} & set(self.right(exercise))
 
     def test_a_page_has_three_right_nodes_six_wrong_ones_and_every_sentence(self, exercise):
         blocks = page(self.topic(), exercise).values()

@@ -19,8 +19,8 @@ class Process:
     arguments: further command-line words, which the program finds in `sys.argv`; those after `--ros-args` are
     ROS's; a launch file takes NAME:=VALUE. stdin: the lines that `input()` returns, one after the other.
     lenient: messages take 1 for 1.0, and 2.0 for 2, and Float32 passes for Float64 where a topic has that,
-    and the other way round; others find a parameter by nearly its name, and one whose default is 0 takes 0.5.
-    On a robot they don't.
+    and the other way round; others find a parameter by nearly its name, and one whose default is 0 takes 0.5;
+    a parameter whose default is 1.0 may start with 1 or "1.0". On a robot they don't.
     host: the computer that it runs on, where the run has a network; None for "laptop". The robot is "robot".
     """
 

@@ -48,7 +48,7 @@ class Courier(Node):
 
 
 class AwaitingCourier(Node):
-    """A clock in place of a timer."""
+    """A design of its own: a clock in place of a timer."""
 
     def __init__(self):
         super().__init__("courier")

@@ -85,6 +85,8 @@ def tutorial_main(args=None):
 
 
 class AwaitingCustomer(Node):
+    """A design of its own: one coroutine from the goal to the result."""
+
     def __init__(self):
         super().__init__("customer")
         group = ReentrantCallbackGroup()

@@ -55,6 +55,8 @@ def tutorial_main(args=None):
 
 
 class AsyncServer(FibonacciServer):
+    """A design of its own: execute is a coroutine."""
+
     async def execute(self, goal_handle):
         return super().execute(goal_handle)
 

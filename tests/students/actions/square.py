@@ -47,7 +47,7 @@ class SquareClient(Node):
 
 
 class ChainOfCallbacks(Node):
-    """Each result sends the next goal."""
+    """A design of its own: each result sends the next goal."""
 
     def __init__(self):
         super().__init__("square_client")

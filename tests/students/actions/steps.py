@@ -42,6 +42,8 @@ class Pausing(FibonacciReporter):
 
 
 class AsyncReporter(Pausing):
+    """A design of its own: execute is a coroutine."""
+
     async def execute(self, goal_handle):
         feedback = Fibonacci.Feedback(sequence=[0, 1])
         goal_handle.publish_feedback(feedback)

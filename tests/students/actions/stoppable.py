@@ -130,7 +130,7 @@ class AsyncStoppable(StoppableServer):
 
 
 class ByATimer(StoppableServer):
-    """A timer does the work, and execute only waits for its end."""
+    """A design of its own: a timer does the work, and execute only waits for its end."""
 
     def __init__(self):
         super().__init__()

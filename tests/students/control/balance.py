@@ -43,7 +43,7 @@ class Balancer(Node):
 
 
 class ByName(Node):
-    """Looks the joint up by its name, and takes the time from its clock."""
+    """A design of its own: looks the joint up by its name, and takes the time from its clock."""
 
     def __init__(self):
         super().__init__("pole")

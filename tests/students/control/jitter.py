@@ -50,7 +50,7 @@ class Meter(Node):
 
 
 class Durations(Node):
-    """With ROS's own times."""
+    """A design of its own: with ROS's own times."""
 
     def __init__(self):
         super().__init__("meter")

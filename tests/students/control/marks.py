@@ -37,7 +37,7 @@ class Driver(Node):
 
 
 class Cascade(Driver):
-    """The place says how far to lean, and the lean says how hard to push."""
+    """A design of its own: the place says how far to lean, and the lean says how hard to push."""
 
     def effort(self, x, angle, speed, rate):
         lean = 0.15 * (x - self.mark) + 0.2 * speed

@@ -158,7 +158,7 @@ def threads():
 
 own_group = spun(Robot, threads)
 reentrant = spun(OneForAll, lambda: MultiThreadedExecutor(num_threads=4))
-own_thread = spun(OwnThread, SingleThreadedExecutor)
+own_thread = spun(OwnThread, SingleThreadedExecutor)  # a design of its own
 default_group = spun(Default, threads)
 same_group = spun(SameGroup, threads)
 one_thread = spun(Robot, SingleThreadedExecutor)

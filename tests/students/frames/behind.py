@@ -47,7 +47,7 @@ class Follower(Node):
 
 
 class ByHand(Follower):
-    """Computes the point from the quaternion itself."""
+    """A design of its own: computes the point from the quaternion itself."""
 
     def goal(self, found):
         shift, turn = found.transform.translation, found.transform.rotation

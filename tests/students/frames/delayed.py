@@ -51,6 +51,14 @@ class Awaiting(Patient):
         self.publisher.publish(moved)
 
 
+class ByFutures(Patient):
+    """A design of its own: the buffer's future is done when the transform has come."""
+
+    def hear(self, msg):
+        future = self.buffer.wait_for_transform_async("map", "base_link", self.when(msg))
+        future.add_done_callback(lambda _: self.publisher.publish(self.buffer.transform(msg, "map")))
+
+
 def main_with_threads():
     """Waits in the callback, while other threads hear."""
     rclpy.init()

@@ -39,6 +39,8 @@ class Placer(Node):
 
 
 class ByLookup(Placer):
+    """A design of its own: looks the transform up, and applies it itself."""
+
     def moved(self, msg):
         there = self.buffer.lookup_transform("map", msg.header.frame_id, Time.from_msg(msg.header.stamp))
         return tf2_geometry_msgs.do_transform_point(msg, there)

@@ -44,6 +44,7 @@ class ByEuler(Mount):
 
 
 def main_with_a_publisher():
+    """A design of its own: a latched publisher in place of the broadcaster."""
     rclpy.init()
     node = rclpy.create_node("mount")
     publisher = node.create_publisher(TFMessage, "tf_static", LATCHED)

@@ -45,6 +45,7 @@ class WrittenOut(Broadcaster):
 
 
 def main_with_a_publisher():
+    """A design of its own: a publisher in place of the broadcaster."""
     rclpy.init()
     node = rclpy.create_node("broadcaster")
     publisher = node.create_publisher(TFMessage, "tf", 100)

@@ -56,7 +56,7 @@ class WithATimer(Patient):
 
 
 class SaysItAgain(Patient):
-    """The same command with each state, until the next one's turn comes."""
+    """A design of its own: the same command with each state, until the next one's turn comes."""
 
     def watch(self, msg):
         super().watch(msg)

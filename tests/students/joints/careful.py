@@ -65,7 +65,7 @@ class Careful(Node):
 
 
 class CountsMessages(Careful):
-    """Ten states in a row; and the stamp of a message isn't needed."""
+    """A design of its own: ten states in a row; the stamp of a message isn't needed."""
 
     count = 0
 

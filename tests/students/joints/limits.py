@@ -48,7 +48,7 @@ class Watcher(Node):
 
 
 class WithADictionary(Watcher):
-    """All positions of a message in a dictionary, and a flag for each joint."""
+    """A design of its own: all positions in a dictionary, and a flag for each joint."""
 
     def watch(self, msg):
         positions = dict(zip(msg.name, msg.position, strict=False))

@@ -63,7 +63,7 @@ class CompassWithTimer(Node):
 
 
 def compass_main(args=None):
-    """In one function; turns the goal into the robot's frame."""
+    """A design of its own: one function; turns the goal into the robot's frame."""
     rclpy.init(args=args)
     node = rclpy.create_node("compass")
     distance = node.create_publisher(Float64, "/goal/distance", 10)

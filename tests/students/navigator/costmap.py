@@ -59,7 +59,7 @@ class Costmap(Node):
 
 
 class WithSlices(Costmap):
-    """Moves the whole map about, over a border that is cut off afterwards."""
+    """A design of its own: moves the whole map about, over a border that is cut off afterwards."""
 
     def inflate(self, cells, reach):
         size = int(reach + 1e-6)

@@ -105,7 +105,7 @@ def main_that_ends():
 
 
 class OnACircle(GoToGoal):
-    """Turns on the spot first, then drives on the circle that leads to the goal, slower towards its end."""
+    """A design of its own: turns on the spot first, then drives on the circle that leads to the goal."""
 
     def steer(self, command, distance, bearing):
         if distance < self.near:

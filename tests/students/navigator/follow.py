@@ -40,7 +40,7 @@ class Follower(Localized):
 
 
 class FromPointToPoint(Follower):
-    """Drives to one point after the other, and turns as far as it is off."""
+    """A design of its own: drives to one point after the other, and turns as far as it is off."""
 
     index = 0
 

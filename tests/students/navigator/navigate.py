@@ -301,7 +301,7 @@ def main_with_try():
 
 main = main_of(Navigator)
 timer_main = main_of(TimerNavigator, SingleThreadedExecutor)
-replanning_main = main_of(ReplansAlways)
+replanning_main = main_of(ReplansAlways)  # a design of its own: plans anew in each turn of its loop
 turning_main = main_of(TurnsToTheHeading)
 looking_up_main = main_of(LooksItUp)
 

@@ -77,7 +77,7 @@ class ClosedSet(Planner):
 
 
 def wavefront_main(args=None):
-    """A function for all: relaxes the whole grid with numpy, then walks downhill from the robot."""
+    """A design of its own: relaxes the whole grid with numpy, then walks downhill from the robot."""
     rclpy.init(args=args)
     node = Node("wavefront_planner")
     publisher = node.create_publisher(Path, "plan", 1)

@@ -94,7 +94,7 @@ def but(path: str, old: str = "", new: str | None = None, files: Mapping[str, st
 
 
 Crates = Workspace(__name__, RIGHT)
-ListsOfFiles = but(CMAKE, "", LISTS)
+ListsOfFiles = but(CMAKE, "", LISTS)  # a design of its own
 WrittenOtherwise = but(
     XML,
     "<depend>geometry_msgs</depend>",

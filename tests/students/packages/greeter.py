@@ -46,7 +46,7 @@ RIGHT = package("greeter", "'hello = greeter.hello:main'", "rclpy std_msgs", {"g
 WHOLE = "greeter/setup.py", "greeter/package.xml", "greeter/setup.cfg", "greeter/greeter/hello.py"
 
 Greeter = Workspace(__name__, RIGHT)
-WithALoop = Workspace(
+WithALoop = Workspace(  # a design of its own
     __name__, package("greeter", "'hello=greeter.deep.plain:run'", "rclpy std_msgs",
                       {"greeter/deep/__init__.py": "", "greeter/deep/plain.py": PLAIN})
 )  # fmt: skip

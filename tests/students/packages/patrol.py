@@ -15,7 +15,9 @@ def with_fault(number: int) -> Workspace:
 
 Patrol = Workspace(__name__, FILES)
 WithMoreWords = Workspace(__name__, changed(FILES, "patrol/package.xml", "ahead", "ahead, and never back"))
-ForOneNode = Workspace(__name__, changed(FILES, "patrol/config/patrol.yaml", "/**:", "/scout/driver:"))
+ForOneNode = Workspace(  # a design of its own: settings for one node by its full name
+    __name__, changed(FILES, "patrol/config/patrol.yaml", "/**:", "/scout/driver:")
+)
 BrokenTag = with_fault(0)
 NoNeeds = with_fault(1)
 NoModules = with_fault(2)

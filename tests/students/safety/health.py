@@ -75,7 +75,7 @@ class MotorFirst(Health):
 
 
 class InWholeNumbers(Health):
-    """Rounded, and with more to read."""
+    """A design of its own: rounded, and with more to read."""
 
     def text(self, number):
         return str(round(number))

@@ -120,7 +120,7 @@ def properties():
 
 
 def one_formula():
-    """A second reckoning, at many places: right, too."""
+    """A design of its own: a second formula, at many places."""
     bench(as_the_formula_says, nonsense_stops)()
 
 

@@ -63,7 +63,7 @@ class AllInTheEnd(Limiter):
 
 
 class StraightThroughZero(Limiter):
-    """From forwards to backwards in one step beyond 0."""
+    """A design of its own: from forwards to backwards in one step beyond 0."""
 
     def next(self, wish, last, most, step):
         return super().next(wish, last if wish * last > 0 else 0.0, most, step)

@@ -92,7 +92,7 @@ def main():
 
 
 class SlowInFrontOfWalls(Wanderer):
-    """Slows down as it comes near; the nearer, the slower."""
+    """A design of its own: the nearer something is, the slower it drives."""
 
     async def look(self, msg):
         super().look(msg)

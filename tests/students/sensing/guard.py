@@ -111,7 +111,7 @@ def main():
 
 
 class Watchdogs(Guard):
-    """Each source has a timer that bites when it isn't reset."""
+    """A design of its own: each source has a timer that stops the robot when it isn't reset."""
 
     def __init__(self):
         super().__init__()

@@ -81,7 +81,7 @@ class GyroWithTimer(Node):
 
 
 def main():
-    """From the orientation that the IMU itself has summed up: its drift is taken away."""
+    """A design of its own: from the orientation that the IMU has summed up, without its drift."""
     rclpy.init()
     node = rclpy.create_node("gyro")
     pub = node.create_publisher(Float64, "/heading", 10)

@@ -26,7 +26,7 @@ class Compass(Node):
 
 
 class CompassForAllTurns(Compass):
-    """The formula of tutorials, which is right for a robot that tilts, too."""
+    """A design of its own: the formula for a robot that tilts, too."""
 
     def heading(self, q):
         siny_cosp = 2.0 * (q.w * q.z + q.x * q.y)

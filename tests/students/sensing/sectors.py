@@ -39,7 +39,7 @@ class Lookout(Node):
 
 
 class LookoutWithNumpy(Lookout):
-    """Radians, arrays, and the wrap by the angle of a vector."""
+    """A design of its own: radians, arrays, and the wrap by the angle of a vector."""
 
     def nearest(self, msg, middle):
         angles = msg.angle_min + np.arange(len(msg.ranges)) * msg.angle_increment - math.radians(middle)

@@ -78,7 +78,7 @@ def main_as_in_tutorials(args=None):
 
 
 class AheadOnly(Stopper):
-    """Looks at 21 rays with numpy, and at nothing else."""
+    """A design of its own: looks at 21 rays with numpy, and at nothing else."""
 
     def look(self, msg):
         ranges = np.array(msg.ranges)

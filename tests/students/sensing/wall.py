@@ -95,7 +95,7 @@ class TutorialWallFollower(Node):
 
 
 def main():
-    """The angle to the wall from two rays, as in courses on racing cars."""
+    """A design of its own: the angle to the wall from two rays, as in courses on racing cars."""
     rclpy.init()
     node = rclpy.create_node("wall_follow")
     pub = node.create_publisher(Twist, "cmd_vel", 10)

@@ -52,6 +52,8 @@ def main(args=None):
 
 
 class AsyncAdder(Adder):
+    """A design of its own: a coroutine answers."""
+
     async def add(self, request, response):
         response.sum = request.a + request.b
         return response

@@ -34,7 +34,7 @@ class Driver(Node):
 
 
 class DriverThatStartsATimer(Node):
-    """Sends commands only while it is armed, and one more to stop."""
+    """A design of its own: sends commands only while it is armed, and one more to stop."""
 
     def __init__(self):
         super().__init__("driver")

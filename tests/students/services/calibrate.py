@@ -48,7 +48,7 @@ class GyroWithNumpy(Gyro):
 
 
 class AsyncGyro(Gyro):
-    """Keeps all readings, and looks at the last 50; answers in a coroutine."""
+    """A design of its own: keeps all readings, and looks at the last 50 in a coroutine."""
 
     def __init__(self):
         super().__init__()

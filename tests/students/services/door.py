@@ -114,7 +114,7 @@ def main_with_threads(args=None):
 
 
 class VisitorWithOneShotTimers(Visitor):
-    """Looks for the door often, and after a no sets a timer for the next question."""
+    """A design of its own: after a no, a timer for the next question."""
 
     pause = 0.1
 

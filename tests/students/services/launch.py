@@ -22,6 +22,7 @@ def launch_with_list():
 
 
 def launch_with_words():
+    """A design of its own: the words of the command line."""
     return Process(CruiserWithDescriptor, arguments=["--ros-args", "-p", "speed:=0.3"])
 
 

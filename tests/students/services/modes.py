@@ -73,7 +73,7 @@ class State(enum.Enum):
 
 
 class StateMachine(Node):
-    """One state in place of several flags; unless it is armed it sends nothing but a stop."""
+    """A design of its own: one state for several flags; sends nothing but a stop unless it is armed."""
 
     def __init__(self):
         super().__init__("manager")

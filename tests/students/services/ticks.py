@@ -56,7 +56,7 @@ class WithDoneCallback(Odometer):
 
 
 class LooksLater(Odometer):
-    """Keeps the future, and looks at it with each beat."""
+    """A design of its own: keeps the future, and looks at it with each beat."""
 
     def __init__(self):
         super().__init__()

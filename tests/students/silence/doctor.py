@@ -69,7 +69,7 @@ class Doctor(Node):
 
 
 class AsksRclpy(Doctor):
-    """Has rclpy compare the settings, and reads its reason."""
+    """A design of its own: has rclpy compare the settings, and reads its reason."""
 
     CURES = (
         ("best effort publisher", "reliability", "best_effort"),

@@ -27,7 +27,7 @@ class Reader(Node):
 
 
 class NodeByNode(Reader):
-    """Asks each node what it publishes."""
+    """A design of its own: asks each node what it publishes."""
 
     def names(self, topic):
         return sorted(

@@ -36,7 +36,7 @@ class Driver(Node):
 
 
 class AtOnce(Driver):
-    """Passes each command on as it comes, too; and asks for what the joystick offers."""
+    """A design of its own: passes each command on as it comes, too; and asks for what the joystick offers."""
 
     deadline = 0.1
 

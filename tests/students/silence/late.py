@@ -35,6 +35,19 @@ class WrittenOut(Surveyor):
         return sum(1 for cell in cells if cell == 0)
 
 
+class MakesItsPublisherLater(Surveyor):
+    """A design of its own: the latched publisher is made when the map has come."""
+
+    def __init__(self):
+        Node.__init__(self, "surveyor")
+        self.publisher = None
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
+
+    def on_map(self, msg):
+        self.publisher = self.publisher or self.create_publisher(Int32, "/free", LATCHED)
+        super().on_map(msg)
+
+
 def main_without_a_class():
     rclpy.init()
     node = rclpy.create_node("surveyor")

@@ -44,7 +44,7 @@ class OwnProfile(Counter):
 
 
 class FromTheFirst(Counter):
-    """Counts what should have come since the first scan."""
+    """A design of its own: counts what should have come since the first scan."""
 
     first, came = None, 0
 
