@@ -10,6 +10,7 @@ from sim.notebook.kernel import (
     interrupt_error,
     notebook_page,
     raise_if_outdated,
+    shared_scripts,
     show_error,
     watch_cells,
 )
@@ -28,6 +29,7 @@ __all__ = [
     "notebook_page",
     "raise_if_outdated",
     "report_failure",
+    "shared_scripts",
     "show_error",
     "watch_cells",
 ]

@@ -13,11 +13,13 @@ from typing import Any
 
 from sim.notebook.cell_history import CellHistory, OutdatedName
 from sim.notebook.page_comm import PageComm
+from sim.notebook.shared_scripts import SharedScripts
 from sim.ros.absent_names import explain_absent_name
 
 COURSE_FOLDERS = tuple(str(Path(__file__).parents[2] / name) for name in ("sim", "grader"))
 _history: CellHistory | None = None
 _page = PageComm()
+_scripts = SharedScripts()
 
 
 def interrupt_error() -> KeyboardInterrupt:
@@ -50,6 +52,11 @@ def notebook_page() -> PageComm:
     return _page
 
 
+def shared_scripts() -> SharedScripts:
+    """Which outputs contain the scripts of pictures; outside a notebook, each does."""
+    return _scripts
+
+
 def watch_cells() -> None:
     """Start to track the notebook's cells. Idempotent."""
     global _history
@@ -60,15 +67,20 @@ def watch_cells() -> None:
 
     def begin(info: Any) -> None:
         history.begin(_key(info), info.raw_cell or "")
+        _scripts.begin(_key(info))
 
     def end(result: Any) -> None:
         error = result.error_before_exec or result.error_in_exec
         history.end(_key(result.info), result.info.raw_cell or "", _format_error(error))
 
+    def update(order: list[str], sources: dict[str, str]) -> None:
+        history.update(order, sources)
+        _scripts.update(order)
+
     ipython.events.register("pre_run_cell", begin)
     ipython.events.register("post_run_cell", end)
     ipython.set_custom_exc((NameError, KeyboardInterrupt, ModuleNotFoundError), show_error)
-    _page.open(history.update)
+    _page.open(update)
 
 
 def find_outdated(nodes: Iterable[Any]) -> OutdatedName | None:

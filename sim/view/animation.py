@@ -1,18 +1,21 @@
-"""A run as an animated PNG, which plays in every page that shows PNGs, even a sanitised one."""
+"""A run as an animation: a player for notebooks, or an animated PNG for pages that show no scripts."""
 
 from __future__ import annotations
 
 import io
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
 
 from sim.evidence import Pose, Recording
 from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, index_at
-from sim.view.path_plot import moving_tracks, world_figure
-from sim.view.plot import KINDS, PATH, TURTLES, note_failure
+from sim.view.interactive import player_html
+from sim.view.path_data import pack_animation
+from sim.view.path_plot import moving_tracks, plot_path, world_figure
+from sim.view.plot import KINDS, PATH, TURTLES, note_failure, small_png
 from sim.view.strokes import hexadecimal
 from sim.world import Body
 from sim.world.obstacles import placed
@@ -23,7 +26,7 @@ SAMPLES = 6  # frames from which the palette is made if the drawing changes
 
 
 class MovingPicture:
-    """An animated PNG, rendered on demand: by Jupyter, or with `bytes(picture)`."""
+    """An animation for Jupyter: a player that plays by itself; `bytes(picture)` is an animated PNG."""
 
     def __init__(self, recording: Recording, speed: float, frames_per_second: int) -> None:
         self._recording, self._speed, self._rate = recording, speed, frames_per_second
@@ -31,12 +34,20 @@ class MovingPicture:
     def __repr__(self) -> str:
         return f"<MovingPicture of {self._recording.stamp:g} s>"  # stored in notebooks next to the picture
 
-    def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
+    @property
+    def html(self) -> str:
+        """The player as HTML, for use in other pages."""
+        return self._html(shared=False)
+
+    def _html(self, *, shared: bool) -> str:
         recording = self._recording
         failure = f"; {recording.failure}" if recording.failure else ""
-        return bytes(self), {
-            "alt": f"The run in the world {recording.world.name}, {recording.stamp:g} s{failure}"
-        }
+        description = f"The run in the world {recording.world.name}, {recording.stamp:g} s{failure}"
+        data = pack_animation(recording, self._speed)
+        return player_html(data, small_png(plot_path(recording)), description, shared=shared)
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        return {"text/html": self._html(shared=True), "text/plain": repr(self)}
 
     def __bytes__(self) -> bytes:
         renderer, speed, rate = _FrameRenderer(self._recording), self._speed, self._rate
@@ -55,7 +66,8 @@ class MovingPicture:
 def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int = 8) -> MovingPicture:
     """An animation of a run's bodies and the robots' paths.
 
-    speed: simulated seconds per second of the animation. frames_per_second: of the animation.
+    It plays when it comes into sight, unless the reader's system asks for reduced motion.
+    speed: simulated seconds per second of the animation. frames_per_second: of the animated PNG.
     Raises ValueError for a run in which nothing moves, and for a speed or rate that isn't above 0.
     """
     if not (speed > 0 and frames_per_second > 0):

@@ -9,6 +9,7 @@ import json
 from importlib.metadata import distribution
 from typing import Any
 
+from sim.notebook import shared_scripts
 from sim.view.javascript import packed, script
 from sim.view.packing import deflated
 
@@ -36,18 +37,25 @@ def _vendored(name: str) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def plot_html(data: dict[str, Any], picture: bytes, description: str) -> str:
-    """A plot as HTML. data: from `plot_data`. picture: a PNG, which remains where no script runs."""
+def plot_html(data: dict[str, Any], picture: bytes, description: str, *, shared: bool = False) -> str:
+    """A plot as HTML. data: from `plot_data`. picture: a PNG, which remains where no script runs.
+
+    shared: for the output of a cell; the script is left out if another output contains it.
+    """
     image = _image(picture, description)
-    return (
-        f'<div class="ros2-plot" data-plot="{deflated(data)}">{image}</div><script>{plot_script()}</script>'
-    )
+    script_ = plot_script() if _is_needed("ros2CoursePlots", shared) else "window.ros2CoursePlots?.()"
+    return f'<div class="ros2-plot" data-plot="{deflated(data)}">{image}</div><script>{script_}</script>'
 
 
-def player_html(data: str, picture: bytes, description: str) -> str:
+def player_html(data: str, picture: bytes, description: str, *, shared: bool = False) -> str:
     """A replay or a path as HTML. data: packed; the rest as in `plot_html`."""
     image = _image(picture, description)
-    return f'<div class="ros2-replay" data-replay="{data}">{image}</div><script>{PLAYER_SCRIPT}</script>'
+    script_ = PLAYER_SCRIPT if _is_needed("ros2CourseReplays", shared) else "window.ros2CourseReplays?.()"
+    return f'<div class="ros2-replay" data-replay="{data}">{image}</div><script>{script_}</script>'
+
+
+def _is_needed(name: str, shared: bool) -> bool:
+    return not shared or shared_scripts().is_needed(name)
 
 
 def _image(picture: bytes, description: str) -> str:

@@ -80,6 +80,7 @@ class LiveView(anywidget.AnyWidget):
         """Replace the view by the replay of the finished run, and close the view."""
         try:
             ending = replay(recording)
+            ending.shares_script = False
             ending.above = failure_html(failure_lines(recording)) if self._reports else ""
             self._replace_output(ending)
         finally:

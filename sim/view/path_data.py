@@ -1,4 +1,4 @@
-"""Packs the path of a run, for pages that draw it as replays draw the world."""
+"""Packs the motion of a run, for pages that show it as a path or as an animation."""
 
 from __future__ import annotations
 
@@ -12,10 +12,19 @@ FAILURE = 500  # characters
 
 
 def pack_path(recording: Recording) -> str:
-    """The motion, contacts and pen strokes of a run with a world. Raises ValueError if nothing moved."""
+    """The path, contacts and pen strokes of a run with a world. Raises ValueError if nothing moved."""
+    return _packed(recording, path=True, speed=1.0)
+
+
+def pack_animation(recording: Recording, speed: float) -> str:
+    """The same for a player without topics and log lines, which plays by itself at this speed."""
+    return _packed(recording, plays=True, speed=speed)
+
+
+def _packed(recording: Recording, **settings: bool | float) -> str:
     end = run_end(recording)
     data = {
-        **{"version": VERSION, "run": run_key(recording), "path": True, "speed": 1.0, "end": end},
+        **{"version": VERSION, "run": run_key(recording), "end": end, **settings},
         **{"failure": recording.failure[:FAILURE], "scans": [], "logs": [], "topics": []},
         **{"world": world_data(recording.world, recording.bodies), **motion(recording)},
         "marks": mark_rows(event_marks(recording), (end, "end", "the run ended.", None)),

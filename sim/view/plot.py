@@ -48,14 +48,17 @@ class Plot(Figure):
         """The interactive plot, if there is one, with this figure for pages without scripts."""
         if self.interactive is None and not self.packed_path:
             return {}  # then Jupyter shows the PNG
-        return {"text/html": self.html, "text/plain": repr(self)}
+        return {"text/html": self._html(shared=True), "text/plain": repr(self)}
 
     @property
     def html(self) -> str:
         """The interactive plot as HTML, for use in other pages."""
+        return self._html(shared=False)
+
+    def _html(self, *, shared: bool) -> str:
         if self.packed_path:
-            return player_html(self.packed_path, small_png(self), self.description)
-        return plot_html(self.interactive or {}, small_png(self), self.description)
+            return player_html(self.packed_path, small_png(self), self.description, shared=shared)
+        return plot_html(self.interactive or {}, small_png(self), self.description, shared=shared)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         return png(self), {"alt": self.description}

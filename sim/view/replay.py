@@ -24,6 +24,7 @@ class Replay:
     """A replay for Jupyter; see `replay`. `above` is HTML to show above it."""
 
     above = ""
+    shares_script = True  # with other outputs of the notebook; False for one that replaces an earlier output
 
     def __init__(
         self, recording: Recording, speed: float, moments: Sequence[Moment] = (), plays: bool = False
@@ -35,13 +36,16 @@ class Replay:
     @property
     def html(self) -> str:
         """The HTML, for use in other pages."""
-        return self.above + player_html(self._data, self._picture, self._title)
+        return self._html(shared=False)
+
+    def _html(self, *, shared: bool) -> str:
+        return self.above + player_html(self._data, self._picture, self._title, shared=shared)
 
     def _repr_html_(self) -> str:
-        return self.html
+        return self._html(shared=self.shares_script)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        return {"text/html": self.html, "text/plain": repr(self)}
+        return {"text/html": self._repr_html_(), "text/plain": repr(self)}
 
     def __repr__(self) -> str:
         return f"<{self._title}: {len(self.html) / 1024:.0f} KiB>"

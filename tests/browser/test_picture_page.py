@@ -14,8 +14,10 @@ from rclpy.node import Node
 
 from sim import World, run
 from sim.evidence import Pose
-from sim.view import plot_path, plot_signal, replay, replay_data
+from sim.notebook.shared_scripts import SharedScripts
+from sim.view import animate, interactive, plot_path, plot_signal, replay, replay_data
 from sim.view.interactive import plot_script
+from tests.browser.lab import ARTIFACTS
 from tests.browser.pictures import COLOURS, Picture, watch
 from tests.sim.graphs import node
 from tests.students import misfits
@@ -190,6 +192,33 @@ def test_a_replay_that_plays_at_once_does_so_unless_motion_shall_be_reduced(page
     assert picture.time() == rammed.stamp
     assert picture.root.get_by_role("button", name="Play", exact=True).is_visible()
     page.emulate_media(reduced_motion="null")
+
+
+def test_an_animation_plays_by_itself_when_it_comes_into_sight(page, rammed, tmp_path):
+    html = animate(rammed, speed=10).html
+    load(page, f'<div style="height: 3000px"></div>{html}', tmp_path)
+    page.wait_for_selector(".ros2-view", state="attached")
+    picture = Picture(page.locator(".ros2-view"))
+    assert picture.time() == pytest.approx(rammed.ended.stamp, abs=0.01)
+    assert picture.root.locator(".failure").inner_text() == rammed.failure
+    picture.root.scroll_into_view_if_needed()
+    picture.wait_until("root => Number(root.querySelector('.time b').textContent) < 5")
+    picture.wait_for_time(rammed.ended.stamp - 0.02)
+    assert page.faults == []
+
+
+def test_plots_and_replays_without_a_script_use_that_of_another_output(page, rammed, tmp_path, monkeypatch):
+    scripts = SharedScripts()
+    monkeypatch.setattr(interactive, "shared_scripts", lambda: scripts)
+    scripts.begin("cell")
+    plots = [plot_signal(rammed, "/cmd_vel", "linear.x") for _ in range(3)]
+    made = [*plots, replay(rammed), plot_path(rammed)]
+    pages = [each._repr_mimebundle_()["text/html"] for each in made]
+    load(page, "\n".join(pages), tmp_path)
+    page.wait_for_function("document.querySelectorAll('.ros2-time-plot').length === 3")
+    page.wait_for_function("document.querySelectorAll('.ros2-view:not(.ros2-time-plot)').length === 2")
+    assert page.locator("img").count() == 0 and page.faults == []
+    page.screenshot(path=ARTIFACTS / "several-plots.png", full_page=True)
 
 
 def test_two_replays_of_one_run_have_one_cursor(page, rammed, tmp_path):

@@ -9,6 +9,8 @@ declare const uPlot: any;
 
 interface Window {
   ros2CourseTimeLinks?: boolean;
+  ros2CoursePlots?: () => void;
+  ros2CourseReplays?: () => void;
   _JUPYTERLAB?: Record<string, any>;
 }
 

@@ -262,4 +262,6 @@ async function installPlot(div) {
   }
 }
 
-document.querySelectorAll("div.ros2-plot:not([data-wired])").forEach(installPlot);
+/** Wire all plots of the page; outputs without this script call it. */
+window.ros2CoursePlots = () => document.querySelectorAll("div.ros2-plot:not([data-wired])").forEach(installPlot);
+window.ros2CoursePlots();

@@ -23,7 +23,9 @@ class Player {
     this.numbers = make("dl", { className: "numbers", hidden: !run.strip?.labels.length });
     this.values = (run.strip?.labels ?? []).map(() => make("dd"));
     this.values.forEach((value, index) => this.numbers.append(make("div", {}, make("dt", {}, run.strip.labels[index]), value)));
+    this.failure = make("div", { className: "failure" }, run.failure);
     this.root.append(make("style", {}, STYLE), row, this.controls(), this.numbers, this.graph.root);
+    if (run.failure) this.root.append(this.failure);
     this.strips = this.timeline();
     this.lines = make("div", { className: "logs" });
     if (run.logs.length) this.side.append(make("div", {}, make("div", { className: "head" }, "LOG"), this.lines));
@@ -42,7 +44,17 @@ class Player {
       if (show) this.root.scrollIntoView({ block: "nearest" });
     });
     followTimeLinks();
-    if (this.run.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.play(true);
+    if (this.run.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.playInSight();
+  }
+
+  /** Start to play from the beginning when the picture comes into sight. */
+  playInSight() {
+    const sight = new IntersectionObserver(([entry]) => {
+      if (!entry.isIntersecting) return;
+      sight.disconnect();
+      if (!this.playing) this.play(true);
+    });
+    sight.observe(this.root);
   }
 
   controls() {
@@ -100,6 +112,7 @@ class Player {
   }
 
   paintStrips() {
+    this.failure.style.color = colours(this.root).failure;
     for (const { canvas, strip } of this.strips) {
       const context = canvas.getContext("2d");
       context.clearRect(0, 0, STRIP, 1);
@@ -283,4 +296,6 @@ async function install(div) {
   }
 }
 
-document.querySelectorAll("div.ros2-replay:not([data-wired])").forEach(install);
+/** Wire all replays of the page; outputs without this script call it. */
+window.ros2CourseReplays = () => document.querySelectorAll("div.ros2-replay:not([data-wired])").forEach(install);
+window.ros2CourseReplays();

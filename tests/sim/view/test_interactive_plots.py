@@ -13,7 +13,8 @@ from std_msgs.msg import Float64
 
 from sim import Recording, World, run
 from sim.evidence import CallbackError, LogLine
-from sim.view import plot_jitter, plot_logs, plot_path, plot_signal, plot_topics
+from sim.notebook.shared_scripts import SharedScripts
+from sim.view import interactive, plot_jitter, plot_logs, plot_path, plot_signal, plot_topics
 from sim.view.field_labels import field_label, is_command, panel_unit
 from sim.view.interactive import plot_script, plot_source
 from sim.view.packing import inflated
@@ -152,6 +153,34 @@ def test_a_page_with_a_plot_is_small_and_complete():
     assert f' alt="{figure.description}">' in html
     assert html.endswith(f"<script>{plot_script()}</script>")
     assert figure._repr_mimebundle_() == {"text/html": html, "text/plain": repr(figure)}
+
+
+def test_a_notebook_with_several_plots_contains_their_script_once(monkeypatch):
+    scripts = SharedScripts()
+    monkeypatch.setattr(interactive, "shared_scripts", lambda: scripts)
+    recording = commands(2000)
+    pages = []
+    for cell in ("first", "second", "third", "first"):
+        scripts.begin(cell)
+        figure = plot_signal(recording, "/cmd_vel", "linear.x", "angular.z")
+        pages.append(figure._repr_mimebundle_()["text/html"])
+    assert [plot_script() in page for page in pages] == [True, False, False, True]  # it was replaced
+    assert pages[1].endswith("<script>window.ros2CoursePlots?.()</script>")
+    without = sum(len(re.search("<img[^>]*>", page)[0]) for page in pages[:3])
+    assert sum(map(len, pages[:3])) - without < 100_000
+
+
+def test_a_deleted_or_running_cell_carries_no_script():
+    scripts = SharedScripts()
+    assert scripts.is_needed("plots") and scripts.is_needed("plots")  # no notebook
+    scripts.begin("a")
+    needed = [scripts.is_needed(name) for name in ("plots", "plots", "replays")]
+    assert needed == [True, False, True]
+    scripts.begin("b")
+    scripts.update(["a", "b"])
+    assert not scripts.is_needed("plots")
+    scripts.update(["b"])
+    assert scripts.is_needed("plots") and not scripts.is_needed("plots")
 
 
 def test_the_script_of_plots_loads_nothing():
