@@ -1,6 +1,7 @@
 """Reads the JSON of a notebook's file, and recovers the cells of a damaged one."""
 
 import codecs
+import itertools
 import json
 import re
 from collections.abc import Sequence
@@ -13,6 +14,8 @@ MERGE_MARKS = (re.compile(r"^<{7} ", re.MULTILINE), re.compile(r"^>{7} ", re.MUL
 WEB_PAGE = re.compile(r"<[!?a-zA-Z]")
 CELLS = re.compile(r'"cells"\s*:\s*\[')
 MAX_JSON_PARTS = 10_000_000  # each takes some 60 bytes, and notebooks of 100 MB in long lines have fewer
+CELL = re.compile(r'\{\s*"(?:attachments|cell_type|execution_count|id|metadata|outputs|source)"\s*:')
+MAX_DAMAGES, MAX_BEGINNINGS = 10, 20  # places that are skipped, and next cells that are tried at each
 BETWEEN = re.compile(r"[\s,]*")
 AGAIN = "Download the notebook again in JupyterLab (File, Download) and hand that in."
 
@@ -87,22 +90,45 @@ def _unique(pairs: Sequence[tuple[str, Any]], twice: list[str]) -> dict[str, Any
 def _cells_before(
     text: str, error: Exception, decoder: json.JSONDecoder, file: str, repairs: list[str]
 ) -> list[Any]:
-    """The complete cells before the position where a file is truncated or invalid."""
+    """The complete cells of a file that is truncated or invalid, before the damage and after it."""
     _refuse_what_is_no_notebook(text, error, file)
     start = CELLS.search(text)
     cells: list[Any] = []
+    left_out: list[int] = []  # how many cells stand before each damage that others follow
     position = BETWEEN.match(text, start.end()).end() if start else len(text)
     while text[position : position + 1] not in ("", "]"):
         try:
             cell, position = decoder.raw_decode(text, position)
         except (ValueError, RecursionError):
-            break
+            found = _next_cell(text, position + 1, decoder) if len(left_out) < MAX_DAMAGES else None
+            if found is None:
+                break
+            left_out.append(len(cells))
+            cell, position = found
         cells.append(cell)
         position = BETWEEN.match(text, position).end()
     if not cells:
         raise Unusable(f"{quote(file)} is damaged from its beginning on; expected a notebook. {AGAIN}")
-    repairs.append(f"The notebook's file is damaged behind cell {len(cells)}; what stands before was marked.")
+    for before in left_out:
+        where = f"behind cell {before}" if before else "in its first cell"
+        repairs.append(f"The notebook's file is damaged {where}; the next cell that can be read was marked.")
+    if text[position : position + 1] != "]" or not left_out:
+        repairs.append(
+            f"The notebook's file is damaged behind cell {len(cells)}; what stands before was marked."
+        )
     return cells
+
+
+def _next_cell(text: str, position: int, decoder: json.JSONDecoder) -> tuple[dict[str, Any], int] | None:
+    """The next cell from a position on, and where it ends; None if there is none that can be read."""
+    for begin in itertools.islice(CELL.finditer(text, position), MAX_BEGINNINGS):
+        try:
+            cell, end = decoder.raw_decode(text, begin.start())
+        except (ValueError, RecursionError):
+            continue
+        if "cell_type" in cell and "source" in cell:  # the metadata of nbgrader have a cell_type, too
+            return cell, end
+    return None
 
 
 def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:

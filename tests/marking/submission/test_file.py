@@ -1,6 +1,7 @@
 """What happens to a notebook's file on its way, and what becomes of it."""
 
 import io
+import re
 import zipfile
 
 import pytest
@@ -205,6 +206,28 @@ def test_a_file_that_breaks_off_is_marked_as_far_as_it_goes():
         "The cells `battery-see`, `heart-see`, `main-given`, `main-see`, `weather-see` and 1 more were "
         "missing; those that were handed out were run.",
     ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [(b'",\n   "metadata"', b'"$\n   "metadata"'), (b'"id": "', b'"id": '), (b": {", b": ", )]
+)
+@pytest.mark.parametrize("number", [0, 3, 12])
+def test_one_wrong_byte_costs_one_cell(old, new, number):
+    begin = [found.start() for found in re.finditer(rb"\n  \{\n", WHOLE)][number]
+    content = WHOLE[:begin] + WHOLE[begin:].replace(old, new, 1)
+    notebook = read_notebook(content, "nodes.ipynb")
+    whole = [cell.text for cell in read_notebook(WHOLE, "nodes.ipynb").cells]
+    assert [cell.text for cell in notebook.cells] == whole[:number] + whole[number + 1 :]
+    where = f"behind cell {number}" if number else "in its first cell"
+    words = f"The notebook's file is damaged {where}; the next cell that can be read was marked."
+    assert notebook.repairs == [words]
+
+
+def test_what_is_damaged_in_many_places_is_marked_as_far_as_it_goes():
+    content = WHOLE.replace(b'"cell_type": "code"', b'"cell_type" "code"')
+    notebook = read_notebook(content, "nodes.ipynb")
+    assert len(notebook.repairs) == 11
+    assert notebook.repairs[-1].endswith("what stands before was marked.")
 
 
 def test_a_file_that_is_not_utf_8_is_read_as_latin_1():
