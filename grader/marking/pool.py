@@ -134,6 +134,8 @@ class Pool:
                 while True:
                     match wire.receive(max(deadline - monotonic(), 0.001)):
                         case {"student": True}:
+                            for earlier in students:
+                                earlier.kill()  # it may still use memory, or hang
                             student, process = self._start(self._students, stack, core)
                             students.append(process)
                             socket.send_fds(sock, [b"."], [student.fileno()])

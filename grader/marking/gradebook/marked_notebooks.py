@@ -17,7 +17,7 @@ MARKING = "marking"  # metadata: the id of the marking that a notebook shows
 OPENINGS = {
     "marked": "",
     "repaired": "Your notebook was repaired before it was marked. Please check that this is your work:",
-    "stopped": "Your notebook was stopped before its end. The points that it had earned before count.",
+    "stopped": "Your notebook stopped. A cell in which it stopped earns nothing; the others count.",
     "refused": "Your submission could not be marked.",
 }
 

@@ -63,6 +63,8 @@ def fill_in_missed_tests(marking: MarkingState) -> None:
         tests = [cell for cell in marking.notebook(name).cells if is_test(cell)]
         missed = [cell for cell in tests if cell_name(cell) not in done]
         results += [no_points(cell, marking.exercises[name][cell_name(cell)]) for cell in missed]
+        order = [cell_name(cell) for cell in tests]
+        results.sort(key=lambda result: order.index(result.cell))
 
 
 STEPS = (rebuild_notebooks, find_exercises, flag_suspicious_code, run_and_judge, fill_in_missed_tests)

@@ -13,7 +13,7 @@ from nbformat import NotebookNode
 
 from grader.marking.errors import StudentProcessGone
 from grader.marking.judge import score_outputs
-from grader.marking.judge.cell_outputs import CellOutputs
+from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry
 from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
 from grader.marking.judge.student_session import StudentSession
@@ -22,6 +22,10 @@ from grader.marking.outputs import writable_text
 from grader.marking.submission.quoting import quote
 
 EMPTY_CELL = "pass"  # in place of a cell that is skipped, so that the others keep their numbers
+MAX_RESTARTS = 3
+NOT_RUN_BELOW = "The cells below were not run."
+RESTARTED = "It was started again behind this cell, and the cells below were run."
+USED_UP = "Your program had used up the {}: the notebook was started again behind this cell."
 NOT_RUN = "Not run for marking, where the tests look at what your nodes do."
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
 
@@ -38,28 +42,78 @@ class NotebookRun:
         sources = {cell.source for cell in released if not cell_name(cell)}
         plain = [(i, cell.source) for i, cell in enumerate(self._cells) if not cell_name(cell)]
         unchanged = {i for i, source in plain if source in sources}
+        self._left = MAX_RESTARTS
+        self._left_out: set[int] = set()  # cells in which a process ended
         self._skipped = display_only_cells([cell.source for cell in self._cells], unchanged)
 
     def run_all(self) -> None:
-        """Run all code cells in order, as far as the process lives."""
-        began, number = monotonic(), 0
-        where = "before its first cell"
-        session = self._marking.start_session()
+        """Run all code cells in order. Where the process ends or has used up something, start it again."""
+        began = monotonic()
+        self._where = "before its first cell"
+        self._session = self._marking.start_session()
         try:
-            session.begin(self._marking.files, self._packages)
+            self._session.begin(self._marking.files, self._packages)
             self._marking.timings["start"] = monotonic() - began
-            for index, cell in enumerate(self._cells):
-                number += bool(cell.source.strip())  # as Jupyter counts
-                where = f"in {_cell_words(cell, number)}"
-                self._run(session, cell, number, index in self._skipped)
-            if session.threads_left:
+            for index in range(len(self._cells)):
+                self._run_and_restart(index)
+            if self._session.threads_left:
                 self._marking.flags.append(THREADS.format(quote(self._name)))
         except StudentProcessGone as gone:
-            self._marking.stops.append(f"The notebook {quote(self._name)} stopped {where}. {gone}")
+            self._note_stop(gone)
         finally:
-            session.close()
+            self._session.close()
 
-    def _run(self, session: StudentSession, cell: NotebookNode, number: int, skipped: bool) -> None:
+    def _run_and_restart(self, index: int) -> None:
+        """Run a cell; afterwards there is a process for the next one. Raises StudentProcessGone."""
+        cell, before = self._cells[index], self._session.used_up
+        number = sum(bool(cell.source.strip()) for cell in self._cells[: index + 1])  # as Jupyter counts
+        self._where = f"in {_cell_words(cell, number)}"
+        try:
+            self._run(self._session, cell, number, index)
+        except StudentProcessGone as gone:
+            if not self._can_restart(index):
+                raise
+            self._note_stop(gone, " It was started again.")
+            self._restart(index)
+            return
+        used_up = self._session.used_up
+        if used_up and not before and is_test(cell) and self._can_restart(index):
+            cell.outputs = [*cell.outputs, *_text(USED_UP.format(used_up))]
+            self._flag(cell, [f"its nodes used up the {used_up}, so the notebook was started again"])
+            self._restart(index)
+
+    def _can_restart(self, index: int) -> bool:
+        """Whether a new process may run the cells below, and there is a test among them."""
+        in_time = self._session.over > monotonic()
+        return self._left > 0 and in_time and any(map(is_test, self._cells[index + 1 :]))
+
+    def _restart(self, index: int) -> None:
+        """Start a new process, and run the cells up to this one in it again, but for tests."""
+        self._left -= 1
+        self._left_out.add(index)
+        over = self._session.over
+        self._session.close()
+        self._session = self._marking.start_session()
+        self._session.begin(self._marking.files, self._packages, over)
+        number = last = 0
+        try:
+            for number, cell in enumerate(self._cells[: index + 1]):
+                runs = not (is_test(cell) or number in self._skipped or number in self._left_out)
+                self._session.run(cell.source if runs else EMPTY_CELL, CellOutputs(DisplayRegistry()))
+                last = number if runs else last
+        except StudentProcessGone:
+            if not self._can_restart(index):
+                raise
+            self._left_out |= {number, last}  # one that says quit() ends its process after it
+            self._restart(index)
+
+    def _note_stop(self, gone: StudentProcessGone, more: str = "") -> None:
+        stop = f"The notebook {quote(self._name)} stopped {self._where}. {gone}{more}"
+        if stop not in self._marking.stops:
+            self._marking.stops.append(stop)
+
+    def _run(self, session: StudentSession, cell: NotebookNode, number: int, index: int) -> None:
+        skipped = index in self._skipped
         outputs, began = CellOutputs(self._marking.displays), monotonic()
         try:
             if is_test(cell):
@@ -70,7 +124,8 @@ class NotebookRun:
                     outputs.add_line(NOT_RUN)
                 cell.outputs = outputs.list
         except StudentProcessGone as gone:
-            outputs.add_line(f"The notebook stopped here. {gone} The cells below were not run.")
+            after = RESTARTED if self._can_restart(index) else NOT_RUN_BELOW
+            outputs.add_line(f"The notebook stopped here. {gone} {after}")
             cell.outputs = outputs.list
             raise
         finally:

@@ -20,6 +20,7 @@ from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, Wire
 
 MESSAGE = 6_000_000  # bytes of one message
 MAX_FLAGS = 5  # of one cell
+RESOURCES = ("memory", "threads", "open files", "disk space")  # that a process may use up
 GRACE = 10.0  # s in which a cell must end after it was interrupted
 
 
@@ -64,6 +65,8 @@ class StudentSession:
     """Runs one notebook in the process at the other end of a socket.
 
     threads_left: whether threads of the notebook still ran after its last cell, as the process claims.
+    used_up: what it has used up after this cell, such as "memory", as it claims; "" for nothing.
+    over: when the time of the whole notebook is over, by the clock `monotonic`.
     describe_end: called when the wire breaks; returns how the process ended, as a sentence, or "" if unknown.
     build: builds the packages that it hands over.
     """
@@ -77,20 +80,22 @@ class StudentSession:
     ) -> None:
         self._wire = DeadlineWire(sock, MESSAGE)
         self._time_limits, self._describe_end, self._build = time_limits, describe_end, build
-        self._over = monotonic() + time_limits.start
-        self.threads_left = False
+        self.over = monotonic() + time_limits.start
+        self.threads_left, self.used_up = False, ""
 
-    def begin(self, files: Mapping[str, bytes], packages: Sequence[str] = ()) -> None:
+    def begin(
+        self, files: Mapping[str, bytes], packages: Sequence[str] = (), over: float | None = None
+    ) -> None:
         """Wait until the process is ready, and write files beside its notebook. Raises StudentProcessGone.
 
-        packages: those of exercises that it can import.
+        packages: those of exercises that it can import. over: of a process before it.
         """
-        self._wire.deadline = self._over
+        self._wire.deadline = min(self.over, over or math.inf)
         if self._receive("It did not start.") != {"ready": True}:
             raise StudentProcessGone("It began with something else than it should.")
         self._send(files=dict(files), packages=list(packages))
         self._listen(CellOutputs(DisplayRegistry()))
-        self._over = monotonic() + self._time_limits.notebook
+        self.over = over or monotonic() + self._time_limits.notebook
 
     def run(self, source: str, outputs: CellOutputs) -> None:
         """Run a cell; its outputs say if it had to be interrupted. Raises StudentProcessGone."""
@@ -135,7 +140,7 @@ class StudentSession:
             try:
                 return self._build(sources)
             finally:
-                self._over += monotonic() - began
+                self.over += monotonic() - began
                 self._limit(self._time_limits.test)
 
         try:
@@ -161,13 +166,14 @@ class StudentSession:
             message = self._receive("It did not stop when it was interrupted.")
             if message.get("done") is True:
                 self.threads_left = message.get("threads") is True
+                self.used_up = message["used_up"] if message.get("used_up") in RESOURCES else ""
                 return None
             if "grade" in message:
                 return str(message["grade"])[:100]
             outputs.add(message)
 
     def _limit(self, seconds: float) -> None:
-        self._wire.deadline = min(monotonic() + seconds, self._over)
+        self._wire.deadline = min(monotonic() + seconds, self.over)
 
     def _note_if_late(self, began: float, outputs: CellOutputs) -> None:
         if monotonic() - began >= self._time_limits.cell:
@@ -191,7 +197,7 @@ class StudentSession:
 
     def _too_late(self, reason: str) -> str:
         """The reason, unless the time of the whole notebook is over."""
-        if monotonic() < self._over:
+        if monotonic() < self.over:
             return reason
         return f"All its cells together took more than {self._time_limits.notebook:g} s."
 

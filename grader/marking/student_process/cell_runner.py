@@ -17,6 +17,7 @@ from typing import Any
 from grader.grading import Grading, graded_as
 from grader.marking.student_process.course_modules import keep_only
 from grader.marking.student_process.error_output import error_output
+from grader.marking.student_process.exhausted import used_up
 from grader.marking.student_process.interrupter import Interrupter
 from grader.marking.student_process.output_sender import OutputSender
 from grader.marking.student_process.shell import DescriptorCapture, Shell, start_shell
@@ -38,9 +39,10 @@ class CellRunner:
 
     Receives {"files": {name: bytes}, "packages": [name, ...]} once, then {"run": source, "seconds": limit} or
     {"test": source, "seconds": limit} for each cell, until the judge closes the connection. Answers each with
-    {"done": true}, and with "threads": whether threads of the notebook still run. Before that it sends the
-    cell's outputs, as `CellOutputs.add` takes them, and {"grade": name} when a test cell calls
-    `Exercise.grade`. If the answer to this is {"go": true}, the wire belongs to the run until it is over.
+    {"done": true}, and with "threads": whether threads of the notebook still run; "used_up": what later cells
+    lack. Before that it sends the cell's outputs, as `CellOutputs.add` takes them, and {"grade": name} when a
+    test cell calls `Exercise.grade`. If the answer to this is {"go": true}, the wire belongs to the run until
+    it is over.
     """
 
     def __init__(self, wire: Wire, sock: socket.socket) -> None:
@@ -93,7 +95,7 @@ class CellRunner:
         self._descriptors.show()
         if not cell.cancelled() and cell.exception() is not None:  # a cell has broken IPython itself
             self._sender.show(output=error_output(cell.exception(), {}))
-        self._sender.done(threads=threading.active_count() > self._threads)
+        self._sender.done(threads=threading.active_count() > self._threads, used_up=used_up())
 
     def _hand_over(self, exercise: str, nodes: Sequence[Any]) -> None:
         """Hand the nodes to the judge; see `Grading`."""

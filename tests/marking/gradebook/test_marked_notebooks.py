@@ -15,7 +15,7 @@ from tests.marking.classroom import ASSIGNMENT, result, submit, tasks
 
 TIME = "2026-01-01 10:00:00 UTC"
 LOOK = "Your notebook was repaired before it was marked. Please check that this is your work:"
-STOPPED = "Your notebook was stopped before its end. The points that it had earned before count."
+STOPPED = "Your notebook stopped. A cell in which it stopped earns nothing; the others count."
 NOTICES = [
     ({"verdict": "marked", "flags": ["It is odd."]}, ""),
     ({"verdict": "repaired", "repairs": ["One.", "Two\nlines."]}, f"{LOOK}\n\n- One.\n- Two lines."),

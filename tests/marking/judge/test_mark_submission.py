@@ -114,16 +114,41 @@ def test_an_endless_cell_is_interrupted_and_the_rest_is_marked(marked):
     assert result.verdict == "marked"
 
 
-def test_a_process_that_ends_keeps_what_was_earned_before(marked):
+def test_a_process_that_ends_is_started_again_behind_the_cell(marked):
     result = marked(temperature="import os\nprint('bye')\nos._exit(0)")
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
     assert result.verdict == "stopped"
-    reason = "The notebook `two` stopped in its cell `temperature`. The process ended by itself."
-    assert result.reason == reason
+    reason = "The notebook `two` stopped in its cell `temperature`. The process ended by itself. "
+    assert result.reason == f"{reason}It was started again."
     assert text(result, "temperature") == (
-        "bye\nThe notebook stopped here. The process ended by itself. The cells below were not run.\n"
+        "bye\nThe notebook stopped here. The process ended by itself. "
+        "It was started again behind this cell, and the cells below were run.\n"
     )
-    assert cell(result, "temperature-points")["outputs"] == []
+    shown = text(result, "temperature-points")
+    assert shown == "No points: this cell ended before the nodes could be run.\n"
+
+
+@pytest.mark.parametrize("end", ["os._exit(0)", "os.abort()"])
+def test_what_ends_or_hangs_in_one_exercise_takes_nothing_from_the_next(marked, end):
+    result = marked(greeting=f"import os\n{end}")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert result.verdict == "stopped"
+
+
+USES_UP = {"memory": "kept.append(bytes(100_000_000))", "open files": "kept.append(open('/dev/null'))"}
+
+
+@pytest.mark.parametrize("what", USES_UP)
+def test_what_one_exercise_has_used_up_is_there_for_the_next(marked, what):
+    use_up = f"\n    def use_up(self):\n        while True:\n            {USES_UP[what]}\n"
+    greedy = GREETER.replace('lambda: self.publisher.publish(String(data="Hello!"))', "self.use_up")
+    result = marked(greeting=f"kept = []\n{greedy}{use_up}")
+    assert points(result)["temperature-points"] == 15
+    words = f"Your program had used up the {what}: the notebook was started again behind this cell.\n"
+    assert text(result, "greeting-points").endswith(words)
+    assert result.flags == [
+        f"The test cell `greeting-points`: its nodes used up the {what}, so the notebook was started again."
+    ]
 
 
 def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
@@ -146,9 +171,9 @@ def test_nodes_that_take_too_long_are_named_and_keep_what_was_earned_before(mark
     )
 
 
-def test_a_cell_that_says_quit_stops_the_notebook(marked):
+def test_a_cell_that_says_quit_costs_the_next_one(marked):
     result = marked(greeting_see="quit()")
-    assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.reason.startswith("The notebook `two` stopped in its cell `greeting-points`.")
 
 
