@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from tests.rules.table import CATEGORIES, LESSONS, TABLES, Rule, table_of
+from tests.rules.table import CATEGORIES, LESSONS, TABLES, Rule, table_of, users
 
 PAGE = TABLES / "RULES.md"
 HEAD = """# What the lessons teach, and what looks for it
@@ -48,9 +48,14 @@ def _lesson(lesson: str) -> str:
     lines += ["", _row("rule without a check", "cells", "why"), _row(*["--"] * 3)]
     for rule in table_of(lesson).rules:
         if rule.unchecked:
-            why = f"{rule.category}: {rule.reason}" if rule.reason else rule.category
-            lines.append(_row(rule.rule, _cells(rule), why))
+            lines.append(_row(rule.rule, _cells(rule), _why_unchecked(rule)))
     return "\n".join(lines)
+
+
+def _why_unchecked(rule: Rule) -> str:
+    why = f"{rule.category}: {rule.reason}" if rule.reason else rule.category
+    used_by = ", ".join(users(rule.technique)[:2]) if rule.technique else ""
+    return f"{why}. Right nodes that keep it: {used_by}" if used_by else why
 
 
 def _rule(rule: Rule) -> str:

@@ -10,8 +10,9 @@ A row, [[rule]], has
     right       nodes there that keep it, and earn everything
     technique   where the rule recommends a way to write it: a pattern that the right nodes' sources have
 
-or, in place of the last four, `unchecked = "CATEGORY: reason"`. The table [no_rule] has, by cell, words of
-sentences that state no rule, though they have one of the words that rules mostly have.
+or, in place of check, wrong and right, `unchecked = "CATEGORY: reason"`; a technique is then one that a right
+node of any exercise has. The table [no_rule] has, by cell, words of sentences that state no rule, though they
+have one of the words that rules mostly have.
 """
 
 from __future__ import annotations
@@ -137,8 +138,10 @@ def _unchecked_problems(rule: Rule) -> Iterator[str]:
         yield f"“{rule.category}” is none of the reasons: {', '.join(CATEGORIES)}"
     elif not rule.reason and rule.category not in SELF_EVIDENT:
         yield f"Why is it “{rule.category}”? Write a reason behind a colon"
-    if rule.check or rule.wrong or rule.right or rule.technique:
+    if rule.check or rule.wrong or rule.right:
         yield "It has a check or nodes, and says that it is unchecked"
+    if rule.technique and not users(rule.technique):
+        yield f"No right node of any exercise has anything like “{rule.technique}”"
 
 
 def _checked_problems(rule: Rule) -> Iterator[str]:
@@ -175,6 +178,17 @@ def _sentence(topic: str, exercise: str, function: str) -> str:
     except (ImportError, AttributeError):
         return ""
     return {check.name: check.sentence for check in checks}.get(function) or ERRORS.get(function, "")
+
+
+@functools.cache
+def users(technique: str) -> tuple[str, ...]:
+    """The right nodes of all exercises whose source has this pattern, as "TOPIC/EXERCISE: NODE"."""
+    return tuple(
+        f"{path.parent.name}/{path.stem}: {node}"
+        for path in sorted(ROOT.glob("tests/exercises/*/*.txt"))
+        for node in right_nodes(path.parent.name, path.stem)
+        if re.search(technique, source_of(path.parent.name, path.stem, node))
+    )
 
 
 def source_of(topic: str, exercise: str, node: str) -> str:

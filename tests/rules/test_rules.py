@@ -16,6 +16,7 @@ from tests.rules.table import (
     read_table,
     source_of,
     table_of,
+    users,
 )
 
 CELLS = {
@@ -109,7 +110,7 @@ def test_a_quote_is_a_row_for_its_sentence_alone():
         ({"technique": "'create_timer'"}, ""),
         ({"technique": "'create_rate'"}, "The source of Heart has nothing like “create_rate”"),
         ({"check": '"nodes/heart: runs"', "wrong": '"SlashInTheName"'}, ""),
-        ({"unchecked": '"fact"'}, "It has a check or nodes, and says that it is unchecked"),
+        ({"unchecked": '"fact"', "check": ""}, "It has a check or nodes, and says that it is unchecked"),
     ],
 )
 def test_a_row_that_does_not_hold_says_why(changes, sentence):
@@ -133,6 +134,14 @@ def test_a_row_that_does_not_hold_says_why(changes, sentence):
 def test_a_rule_without_a_check_says_why(unchecked, sentence):
     table = read_table(row(check="", wrong="", right="", unchecked=f'"{unchecked}"'))
     assert list(problems(table, CELLS)) == ([f"A heart beats. {sentence}"] if sentence else [])
+
+
+def test_a_technique_of_an_unchecked_rule_is_used_by_a_right_node_of_any_exercise():
+    assert "silence/lidar: Counter" in users("qos_profile_sensor_data")
+    keys = {"check": "", "wrong": "", "right": "", "unchecked": '"fact"'}
+    assert list(problems(read_table(row(**keys, technique="'qos_profile_sensor_data'")), CELLS)) == []
+    sentence = "A heart beats. No right node of any exercise has anything like “create_heart”"
+    assert list(problems(read_table(row(**keys, technique="'create_heart'")), CELLS)) == [sentence]
 
 
 def test_a_key_that_rows_do_not_have_is_an_error():

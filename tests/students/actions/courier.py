@@ -217,3 +217,18 @@ def main_that_asks_and_ends():
     rclpy.init()
     rclpy.spin_until_future_complete(Courier(), Future(), timeout_sec=2.0)
     rclpy.shutdown()
+
+
+class LogsItsWayQuietly(Courier):
+    """Right, too: feedback is logged as debug, and once a second as info."""
+
+    def send(self):
+        goal = DriveOnHeading.Goal(speed=self.speed)
+        goal.target.x = self.metres
+        sent = self.client.send_goal_async(goal, feedback_callback=self.hear_feedback)
+        sent.add_done_callback(self.hear_response)
+
+    def hear_feedback(self, msg):
+        metres = msg.feedback.distance_traveled
+        self.get_logger().debug(f"{metres:.3f} m")
+        self.get_logger().info(f"{metres:.1f} m", throttle_duration_sec=1.0)

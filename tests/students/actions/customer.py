@@ -242,3 +242,14 @@ class WaitsInTheCallback(Customer):
 class LogsTheLastNumberOnly(Customer):
     def hear_result(self, future):
         self.get_logger().info(f"result: {future.result().result.sequence[-1]}")
+
+
+def main_that_logs_that_it_waits():
+    """Right, too: it waits for the server with a time limit, and logs that it does."""
+    rclpy.init()
+    node = Customer()
+    node.timer.cancel()
+    while not node.client.wait_for_server(timeout_sec=1.0):
+        node.get_logger().info("Waiting for /fibonacci")
+    node.send()
+    rclpy.spin(node)

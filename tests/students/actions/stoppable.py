@@ -370,3 +370,13 @@ class AwaitsAsyncio(AsyncStoppable):
 
     async def pause(self, seconds):
         await asyncio.sleep(seconds)
+
+
+class PausesInAGroupOfItsOwn(AsyncStoppable):
+    """Right, too: such a pause works in a timer's callback as well."""
+
+    async def pause(self, seconds):
+        done, group = Future(), ReentrantCallbackGroup()
+        timer = self.create_timer(seconds, lambda: done.set_result(None), callback_group=group)
+        await done
+        self.destroy_timer(timer)

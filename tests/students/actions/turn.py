@@ -306,3 +306,30 @@ class SucceedsWithoutTurning(PublishesZeros):
 
     def add(self, yaw):
         pass
+
+
+class NewestGoalWins(SpinServer):
+    """Right, too: a newer goal replaces the older one."""
+
+    def __init__(self):
+        super().__init__()
+        self.server.register_handle_accepted_callback(self.hear_accepted)
+
+    def hear_accepted(self, goal_handle):
+        self.current = goal_handle
+        goal_handle.execute()
+
+    async def execute(self, goal_handle):
+        target, self.turned = goal_handle.request.target_yaw, 0.0
+        while abs(self.turned) < abs(target):
+            if goal_handle is not self.current:
+                goal_handle.abort()
+                return Spin.Result(error_msg=f"replaced after {self.turned:.2f} rad")
+            if goal_handle.is_cancel_requested:
+                return self.stop(goal_handle)
+            self.turn(math.copysign(self.speed, target))
+            self.tell(goal_handle)
+            await self.pause(self.step)
+        self.turn(0.0)
+        goal_handle.succeed()
+        return Spin.Result()

@@ -126,3 +126,17 @@ class Sleeps(Balancer):
 class Idle(Balancer):
     def push(self, effort):
         pass
+
+
+class ByNameAndNewest(Balancer):
+    """Right, too: joints are found by their names, and the newest state alone counts."""
+
+    def __init__(self):
+        Node.__init__(self, "balancer")
+        self.publisher = self.create_publisher(Float64, "/cart_effort", 1)
+        self.create_subscription(JointState, "/joint_states", self.on_joints, 1)
+
+    def on_joints(self, msg):
+        slider, pole = msg.name.index("slider_joint"), msg.name.index("pole_joint")
+        effort = -60.0 * msg.position[pole] - 9.0 * msg.velocity[pole]
+        self.push(effort + 10.0 * msg.position[slider] + 11.0 * msg.velocity[slider])

@@ -276,3 +276,9 @@ class SwapsPlaces(Decision):
 def main():
     rclpy.init()
     rclpy.spin(Decision())
+
+
+class KeepsOneOrder(Decision):
+    """Several orders were published before it began, and its queue holds one of them."""
+
+    order_profile = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -1,5 +1,6 @@
 """Nodes for the exercise `counter`, named by what is special or wrong about them."""
 
+import asyncio
 import itertools
 import threading
 import time
@@ -205,3 +206,15 @@ def main_that_sleeps(args=None):
         rclpy.spin_once(node, timeout_sec=0)
         node.get_logger().info(f"Count: {number}")
         time.sleep(0.5)
+
+
+def main_beside_asyncio(args=None):
+    """Right, too: asyncio drives rclpy in small steps."""
+
+    async def spinning(node):
+        while rclpy.ok():
+            rclpy.spin_once(node, timeout_sec=0.0)
+            await asyncio.sleep(0.02)
+
+    rclpy.init(args=args)
+    asyncio.run(spinning(Counter()))

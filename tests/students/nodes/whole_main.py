@@ -3,7 +3,7 @@
 import contextlib
 
 import rclpy
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
 PARTS = ("Countdown", "clean_up")
@@ -186,3 +186,17 @@ def two_nodes(args=None):
     with contextlib.suppress(KeyboardInterrupt):
         executor.spin()
     clean_up(node)
+
+
+def as_in_the_lesson(args=None):
+    """Right, too: it ends quietly on Ctrl-C and on kill."""
+    rclpy.init(args=args)
+    node = Countdown()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.get_logger().info("Engine off")
+        node.destroy_node()
+        rclpy.try_shutdown()

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import random
 import statistics
 import time
 
@@ -56,6 +57,13 @@ def as_the_formula_says(safe_speed):
             assert math.isclose(safe_speed(distance, wish), right(distance, wish), abs_tol=TINY)
 
 
+def as_the_formula_says_at_drawn_places(safe_speed):
+    chance = random.Random(1)
+    for _ in range(60):
+        distance, wish = chance.uniform(-0.1, 1.0), chance.uniform(-1.0, 1.0)
+        assert math.isclose(safe_speed(distance, wish), right(distance, wish), abs_tol=TINY)
+
+
 def tests_the_copy(safe_speed):
     for distance in PLACES:
         assert right(distance, 0.5) <= 0.5
@@ -106,6 +114,7 @@ PARTS = (
     *("backwards_is_free", "nonsense_stops", "as_the_formula_says", "tests_the_copy", "asserts_nothing"),
     *("exact", "sleeps_and_asserts_nothing", "too_strict_at_the_edge", "one_case", "divides_by_zero"),
     "never_ends",
+    "as_the_formula_says_at_drawn_places",
 )
 
 
@@ -212,3 +221,8 @@ class Voter(Node):
             )
             self.verdicts.publish(String(data=f"{number} {'passed' if fits else 'failed'}"))
         self.answers = {}
+
+
+def drawn_places():
+    """Right, too: the same numbers are drawn each time."""
+    bench(as_the_formula_says_at_drawn_places, no_slower_than_needed, nonsense_stops)()

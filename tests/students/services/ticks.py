@@ -237,3 +237,12 @@ class PublishesTheWholeAnswer(Awaiting):
 class AsksByPosition(Awaiting):
     def question(self):
         return AddTwoInts.Request(self.left, self.right)
+
+
+def main_that_logs_that_it_waits(args=None):
+    """Right, too: it waits for the service with a time limit, before anything runs, and logs that it does."""
+    rclpy.init(args=args)
+    node = WithDoneCallback()
+    while not node.client.wait_for_service(timeout_sec=1.0):
+        node.get_logger().info("Waiting for /add_two_ints")
+    rclpy.spin(node)

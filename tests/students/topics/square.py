@@ -1,12 +1,14 @@
 """Drivers of a square: right ones, and wrong ones named by their defect."""
 
 import math
+import signal
 import time
 
 import rclpy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 
 class SquareDriver(Node):
@@ -210,3 +212,19 @@ class LeavesTheStopToTheRobot(SquareDriver):
     def drive(self):
         if self.ticks < 160:
             super().drive()
+
+
+def main_that_leaves_ctrl_c_to_itself(args=None):
+    """Right, too: ROS is still up at its end, so that it can stop the robot."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = SquareDriver()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.publisher.publish(Twist())
+        time.sleep(0.2)
+        node.destroy_node()
+        rclpy.try_shutdown()
