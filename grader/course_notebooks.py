@@ -19,6 +19,7 @@ DUE = "due.json"  # in course/; `python -m grader due` writes it
 CHAPTERS = "chapters.json"  # in course/
 PICTURE = "goal.svg"  # in a lesson's folder
 FOLDERS = ("course", "exercises")
+BRIDGE = "bridge"  # the folder of the pages after the lessons; each is a notebook
 NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
 
 
@@ -38,11 +39,19 @@ class Notebook:
     @property
     def name(self) -> str:
         """Its number, title and kind."""
-        return f"{int(self.path.parent.name[:2])} {self.title} ({self.kind})"
+        return f"{self.number} {self.title} ({self.kind})"
+
+    @property
+    def number(self) -> str:
+        """The number of its lesson; for a page of the bridge the letter B and the number of the page."""
+        folder = self.path.parent.name
+        return f"B{int(self.path.stem[:2])}" if folder == BRIDGE else str(int(folder[:2]))
 
     @property
     def kind(self) -> str:
-        """ "lesson" or "exercises"."""
+        """ "lesson", "page" or "exercises"."""
+        if self.path.parent.name == BRIDGE:
+            return "page"
         return "exercises" if self.most else "lesson"
 
     @property
@@ -109,13 +118,19 @@ def read_due_dates(file: Path) -> dict[str, datetime]:
 def read_notebooks(root: Path) -> Iterator[Notebook]:
     """Lessons and assignments in the order of the course."""
     found = [path for folder in FOLDERS for path in (root / folder).glob("*/*.ipynb")]
-    found = [path for path in found if PART.fullmatch(path.parent.name) and NEW_VERSION not in path.stem]
+    found = [path for path in found if _is_part(path) and NEW_VERSION not in path.stem]
     for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
         try:
             cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
             yield _notebook(path, [cell | {"source": "".join(cell["source"])} for cell in cells])
         except (AttributeError, KeyError, OSError, TypeError, ValueError):
             continue  # invalid; JupyterLab reports it when it is opened
+
+
+def _is_part(path: Path) -> bool:
+    """Whether it is in a lesson's folder, or a page of the bridge."""
+    numbered = path.stem if path.parent.name == BRIDGE else path.parent.name
+    return PART.fullmatch(numbered) is not None
 
 
 def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:

@@ -85,6 +85,19 @@ def test_chapters_are_those_of_the_file_and_the_rest_comes_last(course):
     assert [chapter.title for chapter in course_map(course).chapters] == [""]
 
 
+def test_the_pages_of_the_bridge_come_after_the_lessons_in_one_part(course):
+    write(course / "course/bridge/02_gazebo.ipynb", "Bridge 2: in Gazebo", code(run=1))
+    write(course / "course/bridge/01_ros1.ipynb", "Bridge 1: ROS 1", code())
+    write(course / "course/bridge/gazebo.ipynb", "Not a page", code())
+    found = course_map(course)
+    assert repr(found).splitlines()[3:5] == [
+        "B1 ROS 1 (page), 0 of 1 cells run",
+        "B2 in Gazebo (page), ✔ done",
+    ]
+    assert [part.name for part in found.chapters[0].parts] == ["01_nodes", "02_topics", "bridge"]
+    assert '<h3><a href="course/bridge/02_gazebo.ipynb">B2 In Gazebo</a></h3>' in found._repr_html_()
+
+
 def test_a_new_version_of_a_changed_notebook_is_reported(course):
     page = course_map(course)._repr_html_()
     first = '<a href="course/02_topics/lesson.ipynb">course/02_topics/lesson.ipynb</a>'
@@ -104,7 +117,7 @@ def test_the_picture_of_a_goal_is_an_image_in_which_nothing_can_run(course):
 
 def test_each_lesson_of_the_course_is_in_a_chapter_and_has_a_picture():
     chapters = course_map(ROOT / "course").chapters
-    assert [chapter.title for chapter in chapters] == ["Talk", "Move", "See", "Whole robots"]
+    assert [chapter.title for chapter in chapters] == ["Talk", "Move", "See", "Whole robots", "Other systems"]
     parts = [part for chapter in chapters for part in chapter.parts]
     assert [part.name for part in parts if not part.picture.startswith("<svg ")] == []
     assert max(len(part.picture) for part in parts) < 8_000

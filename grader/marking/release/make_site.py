@@ -15,6 +15,7 @@ from pathlib import Path
 
 import nbformat
 
+from grader.course_notebooks import BRIDGE
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute
 from grader.work_folder import student_files
@@ -36,6 +37,12 @@ Lessons with what they print and show, and the tasks. To run and to solve them, 
 :maxdepth: 1
 :caption: Lessons
 {lessons}
+```
+
+```{{toctree}}
+:maxdepth: 1
+:caption: Other systems
+{bridge}
 ```
 
 ```{{toctree}}
@@ -65,8 +72,10 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
             _write_executed(course / name, folder / name)
     overview = ["course/start", *(f"course/{page.removesuffix('.md')}" for page in PAGES)]
     lessons = [name.with_suffix("").as_posix() for name in notebooks["course"] if len(name.parts) > 2]
+    bridge = [name for name in lessons if name.startswith(f"course/{BRIDGE}/")]
     tasks = [name.with_suffix("").as_posix() for name in notebooks["exercises"]]
-    lists = {"overview": overview, "lessons": lessons, "tasks": tasks}
+    lessons = [name for name in lessons if name not in bridge]
+    lists = {"overview": overview, "lessons": lessons, "bridge": bridge, "tasks": tasks}
     text = INDEX.format(**{name: "\n".join(entries) for name, entries in lists.items()})
     (folder / "index.md").write_text(text, encoding="utf-8")
     shutil.copyfile(SETTINGS, folder / "conf.py")

@@ -69,6 +69,18 @@ def test_lessons_are_executed_and_tasks_are_not(course, tmp_path_factory):
     assert [line for line in index.splitlines() if "/" in line] == [*names, "exercises/01_nodes/nodes"]
 
 
+def test_the_pages_after_the_lessons_have_a_list_of_their_own(course, tmp_path_factory):
+    pages = tmp_path_factory.mktemp("pages")
+    (course / "course" / "bridge").mkdir()
+    page = notebook(nbformat.v4.new_markdown_cell("# A"))
+    (course / "course" / "bridge" / "01_ros1.ipynb").write_text(page)
+    make_site.write_pages(course, pages, ["no_such_lesson"], print)
+    lists = (pages / "index.md").read_text().split(":caption: ")[1:]
+    entries = {name: [line for line in lines if "/" in line] for name, *lines in map(str.splitlines, lists)}
+    assert entries["Lessons"] == ["course/01_nodes/lesson"]
+    assert entries["Other systems"] == ["course/bridge/01_ros1"]
+
+
 def test_one_lesson_is_executed_on_request(course, tmp_path_factory):
     lines = []
     make_site.write_pages(course, tmp_path_factory.mktemp("pages"), ["no_such_lesson"], lines.append)
