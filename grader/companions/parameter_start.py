@@ -9,6 +9,8 @@ from rclpy.exceptions import InvalidParameterValueException
 
 from sim import Process
 
+REFUSED = "not_started"  # the node that is there in place of a program that refused its value
+
 
 def started_with(program: Any, name: str, value: Any) -> Process:
     """Return the program, started with this value. Where it refuses it, an idle node takes its place."""
@@ -21,6 +23,6 @@ def started_with(program: Any, name: str, value: Any) -> Process:
         except InvalidParameterValueException:
             if not rclpy.ok():  # a main() that cleans up
                 rclpy.init()
-            return rclpy.create_node("not_started")
+            return rclpy.create_node(REFUSED)
 
     return replace(process, target=start, parameters={name: value})
