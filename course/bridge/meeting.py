@@ -55,6 +55,12 @@ def meet(
     return printed.splitlines()[-1]
 
 
+def ports_in_use() -> set[int]:
+    """The UDP ports that programs of this computer have opened."""
+    lines = Path("/proc/net/udp").read_text(encoding="utf-8").splitlines()[1:]
+    return {int(line.split()[1].split(":")[1], 16) for line in lines}
+
+
 @contextmanager
 def discovery_server() -> Iterator[str]:
     """Fast DDS's discovery server, from the package that set-up installed; its address."""
