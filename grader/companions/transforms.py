@@ -11,6 +11,7 @@ from tf2_ros import StaticTransformBroadcaster
 
 from grader.geometry import Pose2D
 from sim import World
+from sim.evidence import Seconds
 
 
 def transform(parent: str, child: str, pose: Pose2D, stamp: Time | None = None) -> TransformStamped:
@@ -24,16 +25,27 @@ def transform(parent: str, child: str, pose: Pose2D, stamp: Time | None = None) 
 
 
 class StaticLocalization(Node):
-    """Publishes static transforms from map to the odom of each robot of a world: where it began."""
+    """Publishes static transforms from map to the odom of each robot of a world: where it began.
 
-    def __init__(self, world: World) -> None:
+    late: how long after its start it publishes them, as one that first has to find its robots.
+    """
+
+    def __init__(self, world: World, late: Seconds = 0.0) -> None:
         super().__init__("localization")
         self.broadcaster = StaticTransformBroadcaster(self)
         starts = {"odom" if name == "robot" else f"{name}/odom": p for name, p in world.starts().items()}
-        transforms = [transform("map", frame, Pose2D(*start)) for frame, start in starts.items()]
-        self.broadcaster.sendTransform(transforms)
+        self.transforms = [transform("map", frame, Pose2D(*start)) for frame, start in starts.items()]
+        if late:
+            self.timer = self.create_timer(late, self.publish_late)
+        else:
+            self.broadcaster.sendTransform(self.transforms)
+
+    def publish_late(self) -> None:
+        """Publish the transforms, once."""
+        self.timer.cancel()
+        self.broadcaster.sendTransform(self.transforms)
 
 
-def localization(world: World) -> list[Callable[[], Node]]:
-    """Return the localization of a world, as companions of a run in it."""
-    return [functools.partial(StaticLocalization, world)]
+def localization(world: World, late: Seconds = 0.0) -> list[Callable[[], Node]]:
+    """Return the localization of a world, as companions of a run in it; `late` as in StaticLocalization."""
+    return [functools.partial(StaticLocalization, world, late)]

@@ -11,8 +11,8 @@ TRANSFORM_RULES = (
         "ExtrapolationException", r"into the future\. .* time (\S+) but the latest data is at time (\S+),",
         "The transform for time {0} has not arrived yet: the newest is of time {1}. A transform often "
         "arrives later than the measurement with its stamp. Use the newest one, with `rclpy.time.Time()` "
-        "in place of the stamp, or wait for it: `timeout=Duration(seconds=0.2)`, and "
-        f"`TransformListener(buffer, self, spin_thread=True)`, which receives meanwhile. {_CATCH}",
+        "in place of the stamp, or wait for it: `timeout=Duration(seconds=0.2)`, in a node that a "
+        f"`MultiThreadedExecutor` spins, so that it receives meanwhile. {_CATCH}",
     ),
     Rule(
         "ExtrapolationException", r"into the past\. .* time (\S+) but the earliest data is at time (\S+),",
@@ -28,5 +28,10 @@ TRANSFORM_RULES = (
         "LookupException", r"\"(.*)\" passed to lookupTransform argument (\w+) does not exist",
         "No transform with the frame `{0}` has arrived: either no node publishes it, the name ({1}) has a "
         f"typo, or the lookup comes too early. {_CATCH}",
+    ),
+    Rule(
+        "ConnectivityException", r"connection between '(.*)' and '(.*)' because",
+        "`{0}` and `{1}` are in two trees: no transform that connects them has arrived. Either no node "
+        f"publishes it, or the lookup comes too early. {_CATCH}",
     ),
 )  # fmt: skip

@@ -20,7 +20,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
-from tf2_ros import Buffer, TransformBroadcaster, TransformListener
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 
 from sim import Process
 
@@ -109,6 +109,23 @@ class LooksUpTooOld(LooksUpAtTheStamp):
 
 class LooksUpAMisspeltFrame(LooksUpAtTheStamp):
     frame = "wrold"
+
+
+class LooksUpAnIsland(LooksUpAtTheStamp):
+    frame = "sea"
+
+    def when(self, scan):
+        return rclpy.time.Time()
+
+
+def island():
+    """Publishes a transform that is not connected with the scanner's."""
+    node = Node("island")
+    sent = TransformStamped(child_frame_id="island")
+    sent.header.frame_id, sent.transform.rotation.w = "sea", 1.0
+    node.broadcaster = StaticTransformBroadcaster(node)
+    node.broadcaster.sendTransform(sent)
+    return node
 
 
 class Camera(LifecycleNode):

@@ -43,7 +43,7 @@ ADVICE = {
     ): "The transform for time 1735689601.200000 has not arrived yet: "
     "the newest is of time 1735689601.000000. A transform often arrives later than the measurement with its stamp. "
     "Use the newest one, with `rclpy.time.Time()` in place of the stamp, or wait for it: "
-    "`timeout=Duration(seconds=0.2)`, and `TransformListener(buffer, self, spin_thread=True)`, which receives "
+    "`timeout=Duration(seconds=0.2)`, in a node that a `MultiThreadedExecutor` spins, so that it receives "
     f"meanwhile. {CATCH}",
     (
         reported.Scanner,
@@ -56,6 +56,12 @@ ADVICE = {
         reported.LooksUpAMisspeltFrame,
     ): "No transform with the frame `wrold` has arrived: either no "
     f"node publishes it, the name (target_frame) has a typo, or the lookup comes too early. {CATCH}",
+    (
+        reported.Scanner,
+        reported.island,
+        reported.LooksUpAnIsland,
+    ): "`sea` and `base` are in two trees: no transform that connects them has arrived. Either no node publishes it, "
+    f"or the lookup comes too early. {CATCH}",
     (reported.ActivatesItself,): UNCONFIGURED,
     (reported.Camera, reported.ActivatesTooEarly): UNCONFIGURED,
     (reported.named_at_the_start,): UNTYPED,

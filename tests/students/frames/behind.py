@@ -166,3 +166,10 @@ class DrivesWithoutFrames(Follower):
         Node.__init__(self, "follower")
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_timer(0.1, lambda: self.drive(1.0, 0.2))
+
+
+class WithoutATry(Follower):
+    """Looks up at once what comes a second later."""
+
+    def follow(self):
+        self.drive(*self.goal(self.buffer.lookup_transform(self.own, self.leader, Time())))
