@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from grader.diagnosis.rays import NO_WAY, rays_without_distance
 from sim.evidence import Recording, Seconds
+from sim.ros2.system import OWN_NAME
 
 _TWIST = "geometry_msgs/msg/Twist"
 _SOME = 2  # times that something is no accident any more
@@ -121,9 +122,12 @@ def rare_commands(recording: Recording) -> str:
 
 
 def left_driving(recording: Recording) -> str:
-    """A last command that is no stop, after which only the robot's own time-out stops it."""
+    """A last command that is no stop, after which only the robot's own time-out stops it.
+
+    `ros2 topic pub --times` can't send a stop after its messages.
+    """
     for topic, last in _left(recording):
-        if last.sender not in _passing_on(recording, topic):
+        if last.sender not in _passing_on(recording, topic) and not last.sender.startswith(f"/{OWN_NAME}"):
             return f"The {_command_text(topic, last)}. {STOP}"
     return ""
 
