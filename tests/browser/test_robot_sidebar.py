@@ -2,9 +2,10 @@
 
 import pytest
 
-from tests.browser.lab import write_notebook
+from tests.browser.lab import SHOWN, write_notebook
 from tests.browser.pictures import Picture
 from tests.browser.test_play_in_lab import CIRCLE, IMPORTS, eventually, live
+from tests.patience import until
 
 pytestmark = pytest.mark.browser
 BUSY = "import os, time\nwhile not os.path.exists('go'): time.sleep(0.1)"
@@ -56,6 +57,23 @@ def test_the_whole_picture_is_in_sight_at_every_size(playing, size, request):
     assert is_whole(playing)
     playing.page.evaluate("document.querySelector('.ros2-course-robot > *').scrollTo(0, 10000)")
     assert is_whole(playing)  # the picture stays while the rest scrolls
+
+
+def test_the_picture_and_the_notebook_stay_in_sight_when_the_window_becomes_small(playing):
+    for width, height in ((900, 700), (720, 450)):
+        playing.page.set_viewport_size({"width": width, "height": height})
+        live(playing).wait_for_time(live(playing).time() + 0.3)
+        until(lambda: is_whole(playing), "the whole picture")
+        assert playing.page.locator(SHOWN).bounding_box()["width"] > 200
+
+
+def test_the_values_of_a_replay_are_next_to_their_labels(playing):
+    live(playing).click("End the run")
+    strip = playing.cell(1).locator(".numbers div")
+    strip.first.wait_for()
+    for entry in strip.all():
+        term, value = (entry.locator(tag).bounding_box() for tag in ("dt", "dd"))
+        assert term["y"] + term["height"] <= value["y"] + 1 and term["x"] == pytest.approx(value["x"], abs=1)
 
 
 def test_it_is_dark_in_a_dark_theme(playing):

@@ -179,7 +179,7 @@ class TimePlot {
     const more = {
       legend: false, after: [ticks], scales: { y: { range: [-0.5, rows.length - 0.5], dir: -1 } },
       series: series.map(({ name }) => ({ label: name, paths: () => null, points: { show: false } })),
-      axis: { size: Math.min(ROW_NAMES, this.width * 0.4), splits: () => rows.map((_, index) => index), values: () => rows.map(({ name }) => name.replace("\n", ": ")) },
+      axis: { size: () => Math.min(ROW_NAMES, this.width * 0.4), splits: () => rows.map((_, index) => index), values: () => rows.map(({ name }) => name.replace("\n", ": ")) },
     };
     return new uPlot(this.options(ROW * rows.length, true, more), aligned(series), this.place);
   }

@@ -55,8 +55,7 @@ class WorldCanvas {
     stage.append(this.camera.root);
     this.sizes = new ResizeObserver(() => this.fit());
     this.sizes.observe(stage);
-    this.frameless = stage.closest(".ros2-course-robot"); // a panel of a given height, which the picture has to fit
-    if (this.frameless) this.sizes.observe(this.frameless);
+    this.frameless = null; // a panel of a given height, which the picture has to fit
     onTheme(stage, () => this.requestPaint());
     this.fit();
   }
@@ -79,7 +78,17 @@ class WorldCanvas {
     this.requestPaint();
   }
 
+  /** Look for the panel around, which is there once the stage has been added to the page. */
+  findPanel() {
+    if (this.frameless) return;
+    this.frameless = /** @type {HTMLElement} */ (this.stage.closest(".ros2-course-robot"));
+    if (!this.frameless) return;
+    this.stage.style.maxWidth = "";
+    this.sizes.observe(this.frameless);
+  }
+
   fit() {
+    this.findPanel();
     this.grown = false;
     const [left, bottom, right, top] = this.shown;
     const shape = Math.min(Math.max((top - bottom) / (right - left), 0.2), 1.1);
@@ -110,6 +119,7 @@ class WorldCanvas {
 
   /** Whether the panel around, or what else is in it, has changed its size. */
   isOutgrown() {
+    this.findPanel();
     return this.frameless && (this.stage.clientWidth !== this.width || this.mostHeight() !== this.most);
   }
 

@@ -25,6 +25,12 @@ export class RobotSidebar {
     this.widget.title.icon = new lab.LabIcon({ name: "ros2-course:robot", svgstr: ICON });
     app.shell.add(this.widget, "right", { rank: 50 });
     tracker.currentChanged.connect(() => this.follow());
+    let before = app.shell.node.clientWidth;
+    window.addEventListener("resize", () => {
+      const width = app.shell.node.clientWidth;
+      if (width < NARROW && width < before && this.opened && this.widget.isVisible) this.widen(true);
+      before = width;
+    });
   }
 
   add(robot) {
@@ -52,7 +58,8 @@ export class RobotSidebar {
     requestAnimationFrame(() => this.widen());
   }
 
-  widen() {
+  /** Give the robot its share of the window. always: also if it has about that already. */
+  widen(always = false) {
     const { shell } = this.app, split = shell._hsplitPanel; // JupyterLab has no public name for it
     const narrow = shell.node.clientWidth < NARROW;
     if (narrow) shell.collapseLeft?.();
@@ -60,7 +67,7 @@ export class RobotSidebar {
     const sizes = split?.relativeSizes() ?? [];
     const right = sizes.at(-1);
     const now = this.widget.node.clientWidth / shell.node.clientWidth;
-    if (!sizes.length || (now > 0.85 * share && now < MOST_SHARE)) return;
+    if (!sizes.length || (!always && now > 0.85 * share && now < MOST_SHARE)) return;
     split.setRelativeSizes(sizes.map((size, i) => (i === sizes.length - 1 ? share : size * (1 - share) / (1 - right || 1))));
   }
 }
