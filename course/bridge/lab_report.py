@@ -126,7 +126,8 @@ def _checks(drive: Drive, found: list[Stop], report: Mapping[str, Any]) -> list[
         v, t, a = (_number(report, name) for name in ("speed", "reaction", "braking"))
         if not a:
             raise Missed("a braking above 0", "0 m/s²", "Measure it first.")
-        _compare(report, "predicted", v * t + v * v / (2 * a), 0.02, 0.001, "m", about=(v, t, a))
+        wanted = v * t + v * v / (2 * a)
+        _compare(report, "predicted", wanted, 0.02, 0.001, "m", about=(v, t, a), source="by the formula")
 
     first = new_check(has_stops, 4, hints=NO_STOP)
     return [
@@ -156,12 +157,13 @@ def _compare(
     unit: str,
     hint: str = "",
     about: tuple[Any, ...] = (),
+    source: str = "as the bag shows it",
 ) -> None:
     """Raise Missed where a number is off by more than a part of the right one, and by more than `least`."""
     value = _number(report, name)
     if abs(value - truth) > max(part * abs(truth), least):
         limits = [f"{part * 100:g} %"] * bool(part) + [f"{least:g} {unit}"] * bool(least)
-        expected = f"{name} as the bag shows it, within {' or '.join(limits)}"
+        expected = f"{name} {source}, within {' or '.join(limits)}"
         raise Missed(expected, f"{value:.3g} {unit}", hint, about=(value, truth, *about) if about else ())
 
 

@@ -20,6 +20,7 @@ import simulated_bag  # noqa: E402
 
 YARD = World.load("yard")
 SHOWN = "{} as the bag shows it, within"
+FORMULA = "predicted by the formula"
 
 
 class Stops(Node):
@@ -184,10 +185,10 @@ def test_a_wrong_drive_is_named(tmp_path, node, words):
         ({"distance": 26.0}, "distance", f"{SHOWN.format('distance')} 10 % or 0.02 m", lab_report.UNIT),
         ({"distance": 0.18}, "distance", "distance as", "That is the braking alone."),
         ({"distance": 0.5}, "distance", "distance as", "From where the robot was at the first command of 0"),
-        ({"predicted": 0.44}, "predicted", "predicted as", "The half is missing"),
-        ({"predicted": 0.18}, "predicted", "predicted as", "The reaction is missing"),
-        ({"predicted": 0.38}, "predicted", "predicted as", "The speed is squared"),
-        ({"predicted": 1.0}, "predicted", "predicted as", "speed · reaction + speed² / (2 · braking)"),
+        ({"predicted": 0.44}, "predicted", f"{FORMULA}, within 2 % or 0.001 m", "The half is missing"),
+        ({"predicted": 0.18}, "predicted", FORMULA, "The reaction is missing"),
+        ({"predicted": 0.38}, "predicted", FORMULA, "The speed is squared"),
+        ({"predicted": 1.0}, "predicted", FORMULA, "speed · reaction + speed² / (2 · braking)"),
         ({"predicted": None}, "predicted", "a number as 'predicted'", "Fill in the whole report."),
         ({"braking": 0}, "predicted", "a braking above 0", "Measure it first."),
     ],
