@@ -14,6 +14,35 @@ BRIDGE = ROOT / "course" / "bridge"
 PAGES = sorted(path.stem for path in BRIDGE.glob("*.ipynb"))
 # The others are run by `make solutions`, for each change that is proposed.
 EVERY_DAY = "01_ros1"
+# What the text of a page says that its cells show.
+SHOWN = {
+    "01_ros1": ("10 messages: ", "6 beats in 5 s"),
+    "02_gazebo": ("lidar: 360 rays up to 3.5 m", "True\n", "/bumper        std_msgs/msg/Bool  "),
+    "03_control": ("incompatible type geometry_msgs", "0.85 m"),
+    "04_dds": (
+        "exit status 102",
+        "no server:  nothing in 3 s",
+        "server:     received hello",
+        "one of two: nothing in 3 s",
+        "two domains: received hello",
+    ),
+    "05_security": (
+        "enclaves/robot/driver/cert.pem: OK",
+        "impostor/cert.pem: verification failed",
+        "Verification failure",
+        "/enclaves/robot/driver' does not exist",
+        "This Fast DDS version doesn't have the security libraries",
+    ),
+    "06_scripts": ("No module named 'scripts'", "tool_a clock\ntool_a report\n", "It is ", "79."),
+    "07_learning": (
+        "in new worlds:    100%",
+        "in the lab: 0%",
+        "BrakeThatSees: 0.00 m before the wall, 1 contacts",
+        "Brake and Sees: 0.20 m before the wall, 0 contacts",
+    ),
+    "08_lab": ("reliability: reliable", "261 scans, 20.0 Hz", "age of a scan: 30 ms"),
+    "09_questions": ("Driver: 0 contacts", "Circler: 0 contacts", "(median)"),
+}
 RUNS = [name if name == EVERY_DAY else pytest.param(name, marks=pytest.mark.soak) for name in PAGES]
 
 
@@ -35,6 +64,20 @@ def test_a_page_runs_from_top_to_bottom(page):
     assert outputs(page), "a page shows something"
     assert [output.evalue for output in outputs(page) if output.output_type == "error"] == []
     assert [output.text for output in outputs(page) if output.get("name") == "stderr"] == []
+
+
+@pytest.mark.parametrize("page", RUNS)
+def test_the_cells_of_a_page_show_what_its_text_is_about(page):
+    text = "".join(output.get("text", "") for output in outputs(page))
+    assert [part for part in SHOWN[page] if part not in text] == [], text
+
+
+@pytest.mark.soak
+def test_two_folders_of_scripts_run_one_program_and_two_packages_run_two():
+    text = "".join(output.get("text", "") for output in outputs("06_scripts"))
+    first, second, *moved = re.findall(r"This is the report of (\w+)", text)
+    assert first == second
+    assert moved == ["tool_a", "tool_b"]
 
 
 @pytest.mark.parametrize("page", PAGES)
