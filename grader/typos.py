@@ -24,7 +24,7 @@ WORTH = 0.5  # of the points
 MAX_CHAINED = 3  # each may hide the next: a name, a type, a number
 OF_NUMBERS, OF_PARAMETERS = "numbers", "parameters"
 FORGIVEN = {OF_NUMBERS, OF_PARAMETERS}
-CORRECTED_HINT = "Judged as if the slip above were mended, for half of the points."
+CORRECTED_HINT = "Graded as if the typo above were fixed, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
 _PACKED = {"std_msgs/msg/Float32": ("<f", ctypes.c_float), "std_msgs/msg/Float64": ("<d", ctypes.c_double)}

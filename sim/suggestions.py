@@ -41,7 +41,7 @@ def describe_difference(found: str, wanted: str) -> str:
             f"Only the namespace differs: write {wanted}. A name that starts with a slash is taken as it is; "
             "without the slash the node's namespace is put before it."
         )
-    return f"Is {found} a typing slip? Did you mean {wanted}?"
+    return f"Is {found} a typo? Did you mean {wanted}?"
 
 
 def describe_text_difference(found: str, wanted: str) -> str:

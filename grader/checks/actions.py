@@ -174,7 +174,7 @@ def cancels(recording: Recording, action: str, *, within: Seconds = 1.0, where: 
     asked = [goal for goal in _goals(recording, action, where) if goal.at(CANCEL_REQUESTED) is not None]
     if not asked:
         speakers = recording.graph.ends("action client", action)
-        raise no_data(recording, f"goals for {action} that somebody cancels", "none", speakers)
+        raise no_data(recording, f"goals for {action} that are canceled", "none", speakers)
     for goal in asked:
         began, ended = goal.at(CANCEL_REQUESTED) or 0.0, goal.at("canceled")
         if ended is None or ended - began > within + 1e-9:

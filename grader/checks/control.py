@@ -168,7 +168,7 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
     if slow > 0.045:
         return (
             f"The efforts came too seldom: up to {slow:.2g} s passed between two of them. The pole falls "
-            "while nobody looks: push at each joint state, and let nothing hold the loop up."
+            "in the meantime: push at each joint state, and let nothing hold the loop up."
         )
     end = run.world.machine.track_length / 2
     if any(abs(x) > end - 0.01 for stamp, x in places(run) if stamp <= fell):

@@ -23,13 +23,15 @@ class _Words(NamedTuple):
 
 
 _WORDS = {
-    "publisher": _Words("subscription", "topic", "message type", "nobody publishes there", "publishes on {}"),
-    "subscription": _Words("publisher", "topic", "message type", "nobody listens there", "listens on {}"),
-    "service": _Words("client", "service", "type", "nobody offers it", "there is {}"),
-    "client": _Words("service", "service", "type", "nobody has a client for it", "there is one for {}"),
-    "action server": _Words("action client", "action", "type", "nobody offers it", "there is {}"),
+    "publisher": _Words("subscription", "topic", "message type", "no publisher there", "there is one on {}"),
+    "subscription": _Words(
+        "publisher", "topic", "message type", "no subscription there", "there is one to {}"
+    ),
+    "service": _Words("client", "service", "type", "no server for it", "there is one for {}"),
+    "client": _Words("service", "service", "type", "no client for it", "there is one for {}"),
+    "action server": _Words("action client", "action", "type", "no server for it", "there is one for {}"),
     "action client": _Words(
-        "action server", "action", "type", "nobody has a client for it", "there is one for {}"
+        "action server", "action", "type", "no client for it", "there is one for {}"
     ),
 }
 

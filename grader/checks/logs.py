@@ -64,7 +64,7 @@ def _nearest(
         return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) instead of print(...)."
     unfilled = next((line.text for line in recording.logs if re.search(r"\{\w[^}]*\}", line.text)), "")
     if unfilled:
-        return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what stands in braces.'
+        return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what is in braces.'
     similar = _most_similar(recording, example)
     if similar:
         return f"“{similar}”", describe_text_difference(similar, example)
@@ -108,7 +108,7 @@ def come_every(
 def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[LogMatch]) -> None:
     if all(timer.node in recording.course_nodes for timer in recording.graph.timers):
         hint = (
-            "A node hears nothing and answers nobody while a loop of its own sleeps: "
+            "A node receives and answers nothing while a loop of its own sleeps: "
             f"create_timer({period:g}, method) has a method called again and again, and leaves the node free."
         )
         saw = f"a line every {period:g} s, but no timer"

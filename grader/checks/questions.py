@@ -57,11 +57,11 @@ def _near_a_person(recording: Recording) -> Question | None:
     touch = next((contact.stamp for contact in recording.contacts if contact.what == "person"), None)
     if touch is not None:
         text = "which program should have let it stand before, and what did that one know?"
-        return Question(touch, touch, f"At {touch:.1f} s it touched somebody: {text}")
+        return Question(touch, touch, f"At {touch:.1f} s it touched a person: {text}")
     near = nearest_person(recording, DRIVES)
     if near is None or near.away > NEAR:
         return None
-    saw = f"At {near.stamp:.1f} s it drove at {near.speed:.2f} m/s, {near.away:.1f} m from somebody"
+    saw = f"At {near.stamp:.1f} s it drove at {near.speed:.2f} m/s, {near.away:.1f} m from a person"
     return Question(near.stamp, near.stamp, f"{saw}: what did it know of this person?")
 
 

@@ -76,7 +76,7 @@ def _can_be_received(recording: Recording, topic: str, expected: str) -> None:
 
     lost = publisher_for_each_message(recording, topic)
     if lost:
-        raise Missed(expected, "messages that nobody can hear", lost, picture="topics")
+        raise Missed(expected, "messages that are never received", lost, picture="topics")
 
 
 def longest_pause(moments: Sequence[Seconds]) -> tuple[Seconds, Seconds]:

@@ -21,7 +21,7 @@ WORST_FIRST: tuple[Status, ...] = ("failed", "skipped", "broken", "passed")  # w
 
 BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
-EXPLAINED_BY_SPOOFING = "Not judged: nobody can tell what came from whom, see above."
+EXPLAINED_BY_SPOOFING = "Not graded: it isn't clear which program sent what, see above."
 EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
 SPOOFED_TOPICS = "keeps_apart"  # the name of the line that tells of a topic or service with two owners
 

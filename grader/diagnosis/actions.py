@@ -65,7 +65,7 @@ def cancel_not_handled(recording: Recording) -> str:
                     "CancelResponse.ACCEPT at once, and do what takes time in execute, once "
                     "goal_handle.is_cancel_requested is True."
                 )
-            late = f"heard it only at {heard:.3g} s" if heard is not None else "never heard it"
+            late = f"received it only at {heard:.3g} s" if heard is not None else "never received it"
             return (
                 f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} {late}: "
                 "the execute callback kept the node busy. Spin the node with a "

@@ -58,7 +58,7 @@ def busy_listener(recording: Recording) -> str:
             return (
                 f"{node} took {len(taken)} of {sent} messages: {slowest.callback} held it for up to "
                 f"{slowest.duration:.3g} s each time, and the next ones came meanwhile. A callback should "
-                "keep what it hears, and return."
+                "store the message, and return."
             )
     return ""
 

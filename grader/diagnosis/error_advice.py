@@ -83,7 +83,7 @@ def _unknown_name(error: CallbackError) -> str:
     if near:
         return f"Python knows no `{name}`. Did you mean `{near}`? It comes with `{_HOMES[near]}`."
     return (
-        f"Python knows no `{name}` here: a typing slip, a missing import, or a value of the node's own, "
+        f"Python knows no `{name}` here: a typo, a missing import, or a value of the node's own, "
         f"which is `self.{name}`."
     )
 

@@ -11,7 +11,7 @@ from sim.evidence import CallbackError, Recording
 PACKAGE_RULES = (
     Rule(
         "ExecutableNotFound", r"installed into bin",
-        "Mend setup.cfg: [develop] has script_dir, [install] has install_scripts, both $base/lib/ and the "
+        "Fix setup.cfg: [develop] has script_dir, [install] has install_scripts, both $base/lib/ and the "
         "package's name.",
     ),
     Rule(
@@ -48,7 +48,7 @@ def own_module(error: CallbackError, recording: Recording) -> str:
     if error.type == "AttributeError" and lost and f"{lost[1]}/{lost[1]}/__init__.py" in sources:
         return (
             f"Somebody asks {lost[1]}.{lost[2]} for {lost[3]}, and it has none. Is it an entry point in "
-            "setup.py? Behind its `:` stands the function that begins the program."
+            "setup.py? After its `:` comes the function that starts the program."
         )
     if error.type == "TypeError" and error.text == "'module' object is not callable" and sources:
         return (

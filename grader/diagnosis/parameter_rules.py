@@ -59,7 +59,7 @@ PARAMETER_RULES = (
     ),
     Rule(
         "KeyError", r"^'(.*)'$",
-        "The dictionary has no '{0}': is it a typing slip? Where it comes from outside, refuse what is not "
+        "The dictionary has no '{0}': is it a typo? Where it comes from outside, refuse what is not "
         "in the dictionary: `if value not in dictionary:`.",
     ),
     Rule(

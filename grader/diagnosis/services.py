@@ -69,7 +69,7 @@ def response_not_received(recording: Recording) -> str:
             continue  # it spins, and gave up waiting, or waits in a callback
         return (
             f"{client} called {name} at {asked:.3g} s, and the answer came at {answered:.3g} s, but {client} "
-            f"never heard it: answers come in while the node spins. Call {SPIN}."
+            f"never received it: answers come in while the node spins. Call {SPIN}."
         )
     return ""
 
@@ -91,7 +91,7 @@ def response_dropped(recording: Recording) -> str:
             return (
                 f"{call.client} called {call.service} at {call.requested:.3g} s, and the answer came at "
                 f"{call.received:.3g} s, but nothing took it: "
-                "`call_async(request).add_done_callback(self.hear)` names the method that hears it."
+                "`call_async(request).add_done_callback(self.hear)` names the method that receives it."
             )
     return ""
 

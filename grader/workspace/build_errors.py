@@ -20,7 +20,7 @@ IN_SETUP = re.compile(r'File "<string>", line (\d+)')
 RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
     (
         r"can't copy '([^']{1,200})': doesn't exist",
-        lambda found: f"setup.py installs {found[1]}, and there is no such file. Make it, or mend the name.",
+        lambda found: f"setup.py installs {found[1]}, and there is no such file. Make it, or fix the name.",
     ),
     (
         r"package directory '([^']{1,200})' does not exist",

@@ -144,7 +144,7 @@ class _Reading:
         self.found[path] = data
         if len(self.found) > self._limits.files:
             raise InvalidFiles(
-                f"{self._shown} has more than {self._limits.files} files. Leave out what nobody needs."
+                f"{self._shown} has more than {self._limits.files} files. Leave out what isn't needed."
             )
 
     def _at(self, path: str) -> str:

@@ -112,9 +112,9 @@ def test_a_slip_costs_half(student, points):
 def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     *_, pace, value = warm.grade(Misspelt).verdicts
     assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, CORRECTED_HINT)] * 2
-    assert CORRECTED_HINT == "Judged as if the slip above were mended, for half of the points."
+    assert CORRECTED_HINT == "Graded as if the typo above were fixed, for half of the points."
     assert (
-        warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
+        warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typo? Did you mean /sensor/warm?"
     )
 
 

@@ -42,7 +42,7 @@ def test_a_publisher_may_offer_more_than_is_asked_for(given, wanted):
         (
             {"gives": ["newz"]},
             {"takes": ["news"]},
-            "/b waits in vain: nobody publishes on /news, and /a has /newz. Is /newz a typing slip? "
+            "/b waits in vain: nobody publishes on /news, and /a has /newz. Is /newz a typo? "
             "Did you mean /news?",
         ),
         (

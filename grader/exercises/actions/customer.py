@@ -21,7 +21,7 @@ def sends_a_goal_of_seven(run: Recording) -> Goal:
     with hinting("In ask: self.client.send_goal_async(Fibonacci.Goal(order=7), ...)."):
         goal = sends_goals(run, FIBONACCI, FIBONACCI_TYPE)[-1]
     if not goal.server:
-        hint = "A goal to nobody is lost: ask only when self.client.server_is_ready() is True."
+        hint = "A goal without a server is lost: send it only when self.client.server_is_ready() is True."
         saw = f"sent at {goal.requested:.3g} s, before there was a server"
         raise Missed("a goal that the server takes", saw, hint)
     if goal.request.order != 7:
@@ -52,7 +52,7 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
         hint = ("In hear_result the numbers are in future.result().result.sequence, and list(...) of them "
                 "prints well.")
         if goal.received is None:
-            hint = ("Nobody asked for the result. In ask: future.add_done_callback(self.hear_response); "
+            hint = ("The result wasn't requested. In ask: future.add_done_callback(self.hear_response); "
                     "there: goal_handle.get_result_async().add_done_callback(self.hear_result).")
         raise Missed(f"an info line with “result” and {wanted} after {goal.ended:.3g} s", quoted(texts), hint)
 

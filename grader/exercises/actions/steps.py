@@ -55,7 +55,7 @@ def rejects_bad_orders(run: Recording) -> None:
     guess="After each new number: goal_handle.publish_feedback(Fibonacci.Feedback(sequence=sequence)).",
 )
 def publishes_feedback(run: Recording) -> list[Goal]:
-    """Each new number is told as feedback: the whole sequence so far."""
+    """Each new number is sent as feedback: the whole sequence so far."""
     goals = picked(run, FIBONACCI, lambda goal: LIMITS[0] < goal.request.order < LIMITS[1])
     for goal in goals:
         sent = [list(row.message.sequence) for row in goal.feedback]

@@ -21,7 +21,7 @@ def still_offers(run: Recording) -> list[Goal]:
 
 @stoppable.check(5, after=still_offers)
 def accepts_the_cancel(run: Recording, goals: list[Goal]) -> tuple[Goal, Seconds]:
-    """The cancel request is heard and accepted at once, while the goal is executed."""
+    """The cancel request is received and accepted at once, while the goal is executed."""
     goal = goals[0]
     requested, accepted = goal.at(CANCEL_REQUESTED), goal.at("canceling")
     if requested is None or (goal.ended is not None and goal.ended < requested):
@@ -59,7 +59,7 @@ def returns_what_it_has(run: Recording, goal: Goal) -> None:
 
 @stoppable.check(2, after=still_offers)
 def finishes_the_others(run: Recording) -> None:
-    """A goal that nobody cancels still succeeds, with the whole sequence."""
+    """A goal that isn't canceled still succeeds, with the whole sequence."""
     for goal in picked(run, FIBONACCI, lambda goal: goal.request.order < 20):
         is_succeeded(goal)
         wanted = sequence(goal.request.order)

@@ -24,7 +24,7 @@ turn = Exercise("turn", "A robot that turns", world="yard", seconds=40, companio
 
 @turn.check(3)
 def offers_to_turn(run: Recording) -> None:
-    """The node offers the action /spin of type Spin, and hears /odom."""
+    """The node offers the action /spin of type Spin, and subscribes to /odom."""
     offered(run, SPIN, "nav2_msgs/action/Spin")
     with hinting('self.create_subscription(Odometry, "/odom", self.hear_odometry, 10), in __init__.'):
         subscribes(run, "/odom", "nav_msgs/msg/Odometry")

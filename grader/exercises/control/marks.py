@@ -22,7 +22,7 @@ marks = Exercise(
 
 @marks.check(2)
 def subscribes_and_pushes(run: Recording) -> None:
-    """The node hears /mark, and publishes efforts on /cart_effort."""
+    """The node subscribes to /mark, and publishes efforts on /cart_effort."""
     with hinting("Where the cart has to be comes on /mark."):
         subscribes(run, "/mark", FLOAT)
     publishes(run, EFFORT, FLOAT, at_least=5)

@@ -20,7 +20,7 @@ def pushes(run: Recording) -> None:
 
 @push.check(5, after=pushes)
 def keeps_it_up(run: Recording) -> None:
-    """The pole stands for 19 s, though somebody pushes the cart twice."""
+    """The pole stands for 19 s, although the cart is pushed twice."""
     stands(run)
 
 

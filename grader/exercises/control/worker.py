@@ -26,14 +26,14 @@ pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures"
 
 @worker.check(2)
 def subscribes_and_publishes(run: Recording) -> None:
-    """The node hears /picture, publishes efforts on /cart_effort and places on /brightest."""
+    """The node subscribes to /picture, publishes efforts on /cart_effort and places on /brightest."""
     subscribes(run, "/picture", "std_msgs/msg/UInt8MultiArray")
     publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
     publishes(run, ANSWERS, "std_msgs/msg/Int32")
 
 
 @worker.check(1, after=subscribes_and_publishes, hints={
-    "Nobody can see so quickly: call look(...) for each picture, and publish what it returns.":
+    "No one can see so quickly: call look(...) for each picture, and publish what it returns.":
         lambda run, picture: any(_is_early(picture, row) for row in picture.responses),
     "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
 })
@@ -60,7 +60,7 @@ def keeps_it_up(run: Recording) -> None:
         stands(run)
     pause, since = longest_pause([row.stamp for row in run.messages(EFFORT)])
     if pause > ALONE:
-        saw = f"nobody pushing for {pause:.2g} s, from {since:.3g} s on: it stood by chance"
+        saw = f"no push for {pause:.2g} s, from {since:.3g} s on: it stood by chance"
         raise Missed("a pole that is held up all the time", saw, ASIDE)
 
 

@@ -61,25 +61,25 @@ def publishes_answers(run: Recording) -> None:
 
 @blueprint.check(4, after=has_four_programs)
 def subscribes_to_what_it_needs(run: Recording) -> None:
-    """Each program hears what its question needs, with the right types: control hears of people itself."""
+    """Each program subscribes to what its question needs, with the right types: control to /people, too."""
     for name, topic in TOPICS.items():
         for program in topic.subscribers:
-            hint = "Read the question of each program: of what does it have to hear to answer?"
+            hint = "Read the question of each program: what does it have to receive to answer?"
             if name in ("/people", "/obstacles", "/robot_pose"):
-                hint = "Safety must not depend on decision: control hears perception directly."
+                hint = "Safety must not depend on decision: control subscribes to perception directly."
             _require(run, "subscription", program, name, topic.type, hint)
 
 
 @blueprint.check(3, after=subscribes_to_what_it_needs)
 def subscribes_to_nothing_else(run: Recording) -> None:
-    """Nobody hears what isn't needed: who decides hears no lidar, and who drives no orders."""
+    """No program subscribes to what it doesn't need: decision not to the lidar, control not to orders."""
     for end in _endpoints(run, "subscription"):
         wanted, optional = TOPICS[end.name][2:] if end.name in TOPICS else ((), ())
         program = end.node.strip("/")
         if program not in (*wanted, *optional):
             who = ", ".join(wanted) or "none of the four"
-            hint = "What a program hears, it depends on. Whoever hears everything is a god node."
-            raise Missed(f"{end.name} heard by {who}", f"{program} hears it, too", hint)
+            hint = "A program depends on what it subscribes to. One that receives everything is a god node."
+            raise Missed(f"{end.name} received by {who}", f"{program} receives it, too", hint)
 
 
 @blueprint.check(2, after=publishes_answers)
@@ -90,7 +90,7 @@ def has_one_publisher_for_each(run: Recording) -> None:
         topic = TOPICS.get(end.name)
         if topic is None or topic.publisher != program:
             who = topic.publisher if topic and topic.publisher else "the robot" if topic else "nobody"
-            hint = "One topic, one program that publishes there, and no topic that nobody asked for."
+            hint = "One topic, one program that publishes there, and no topic that isn't needed."
             if end.name == DRIVER:
                 hint = "Exactly one program commands the motors: the one that asks the gate before."
             raise Missed(f"{end.name} published by {who}", f"{program} publishes it", hint,
@@ -99,17 +99,17 @@ def has_one_publisher_for_each(run: Recording) -> None:
 
 @blueprint.check(2, after=subscribes_to_what_it_needs)
 def has_matching_qos(run: Recording) -> None:
-    """What is latched is heard by who comes late, and the sensors are heard as they speak."""
+    """Latched topics are received by late joiners, and the QoS for sensors matches theirs."""
     for end in _endpoints(run, "subscription"):
         program = end.node.strip("/")
         for other in [other.qos for other in run.graph.publishers(end.name) if other.from_course]:
             if other["durability"] == "transient_local" != end.qos["durability"]:
-                hint = "The message was published before your program began: hear it with KEPT."
-                raise Missed(f"{end.name} heard with KEPT", f"{program} hears what is new only", hint)
+                hint = "The message was published before your program began: subscribe with KEPT."
+                raise Missed(f"{end.name} received with KEPT", f"{program} receives only new messages", hint)
             if other["reliability"] == "best_effort" and end.qos["reliability"] == "reliable":
-                saw = f"{program} asks for reliable, and hears nothing"
-                hint = "A sensor is best effort, and isn't heard by who asks for more: "
-                raise Missed(f"{end.name} heard as best effort", saw, hint + "qos_profile_sensor_data.")
+                saw = f"{program} requests reliable, and receives nothing"
+                hint = "A sensor offers best effort, and doesn't match a subscription that requests more: "
+                raise Missed(f"{end.name} received as best effort", saw, hint + "qos_profile_sensor_data.")
 
 
 def _endpoints(run: Recording, kind: str) -> list[Endpoint]:
@@ -119,7 +119,7 @@ def _endpoints(run: Recording, kind: str) -> list[Endpoint]:
 
 
 def _require(run: Recording, kind: str, program: str, name: str, type: str, hint: str) -> None:
-    does = "publishes" if kind == "publisher" else "hears"
+    does = "publishes" if kind == "publisher" else "receives"
     found = [end for end in _endpoints(run, kind) if end.node.strip("/") == program]
     types = [end.type for end in found if end.name == name]
     if not types:

@@ -12,7 +12,7 @@ from sim.evidence import Recording
 GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
 SAME = 0.02  # m
-PAST = "Hear /orders with KEPT, and keep orders by their id: a later message replaces an earlier one."
+PAST = "Subscribe to /orders with KEPT, and store orders by their id: a later message replaces it."
 SILENT = "Publish both each time the timer calls, also where nothing has changed, and wait for nothing."
 
 decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
@@ -50,7 +50,7 @@ def publishes_twice_a_second(run: Recording) -> None:
 
 @decide.check(4, after=knows_latched_messages)
 def delivers_first(run: Recording) -> None:
-    """Whoever carries something delivers it, whatever else is wanted."""
+    """A robot that carries a load delivers it, whatever else is requested."""
     _compare(run, "delivers", "Look for an order that is PICKED_UP before you look at anything else.")
 
 

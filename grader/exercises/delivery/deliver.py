@@ -73,12 +73,12 @@ def touches_nobody(run: Recording) -> None:
     """In no run the robot touches a person, or drives within 0.5 m of one: such a run earns no more."""
     moment, near = shift(run).met_person, nearest_person(run, DRIVING)
     if moment is not None:
-        hint = ("Control stands while somebody walks near, whatever it was told, and while it doesn't know. "
-                "The replay shows what it did before the touch.")
+        hint = ("Control stands still while a person walks near, whatever its goal, and while it doesn't "
+                "know. The replay shows what it did before the touch.")
         raise Missed("no contact with a person", f"one at {moment:.3g} s", hint, picture="path", unsafe=True)
     if near is not None and near.away < CLOSE:
-        saw = f"{near.speed:.2f} m/s at {near.stamp:.3g} s, {near.away:.2f} m from somebody"
-        hint = "By luck nobody was hurt. Does perception tell of who walks, and does control ask each time?"
+        saw = f"{near.speed:.2f} m/s at {near.stamp:.3g} s, {near.away:.2f} m from a person"
+        hint = "By luck no one was hurt. Does perception publish who walks, and does control check each time?"
         raise Missed(f"a robot that stands within {CLOSE} m", saw, hint, picture="path", unsafe=True)
 
 
@@ -134,8 +134,9 @@ def stands_blind(run: Recording) -> None:
 WAITS_FOR_EVER = "The scans are back, and so should be poses and plans: nothing may wait for ever."
 SAME_WAY = "Plan anew once a second, with what the lidar sees as solid as a wall."
 SAME_ORDER = "An order that is canceled is published once more: its status says so. Choose again."
-NEW_MESSAGES_ONLY = ("A program that comes back hears old orders, the map and the dock only if it asks for "
-                     "them: durability TRANSIENT_LOCAL. What it hasn't heard yet must not end it.")
+NEW_MESSAGES_ONLY = ("A program that is restarted receives old orders, the map and the dock only if it "
+                     "requests them: durability TRANSIENT_LOCAL. What it hasn't received yet must not "
+                     "end it.")
 
 
 @deliver.check(1, after=stands_blind, only="blind", hints=_unless_idle(WAITS_FOR_EVER))

@@ -30,7 +30,7 @@ gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, co
 
 @gate.check(2, guess="Leave the subscriptions as they are, and publish at the end of drive.")
 def has_its_endpoints(run: Recording) -> None:
-    """The node hears /robot_pose, /people and /goal_pose, and publishes Twist messages on /cmd_vel."""
+    """The node subscribes to /robot_pose, /people and /goal_pose, and publishes Twist on /cmd_vel."""
     for topic in (POSE, PEOPLE, GOAL):
         subscribes(run, topic)
     publishes(run, OUT, TWIST, at_least=10)
@@ -38,12 +38,12 @@ def has_its_endpoints(run: Recording) -> None:
 
 @gate.check(5, after=has_its_endpoints)
 def arrives(run: Recording) -> None:
-    """The robot comes to the first place that it is sent to, and touches nobody."""
+    """The robot gets to the first place that it is sent to, and touches no one."""
     touched = [contact for contact in run.contacts if contact.what == "person"]
     if touched:
-        hint = "Somebody walks there: before each command, ask whether the robot may move at all."
+        hint = "A person walks there: before each command, check whether the robot may move at all."
         saw = f"a person touched at {touched[0].stamp:.3g} s"
-        raise Missed("nobody touched", saw, hint, picture="path", unsafe=True)
+        raise Missed("no one touched", saw, hint, picture="path", unsafe=True)
     places = [place for _, place in _goals(run)]
     if len(set(places)) < 2:
         aim = "Drive along self.way with steer, as fast as the gate allows, and stand when the goal is near."
@@ -54,14 +54,14 @@ def arrives(run: Recording) -> None:
 
 @gate.check(4, after=arrives)
 def stands_near_people(run: Recording) -> None:
-    """It stands while somebody is told of within 1.5 m."""
+    """It stands still while a person is reported within 1.5 m."""
     hint = "Ask for the distance to each of self.people before each command."
     _require_at_most(run, STILL, _close, hint, unsafe=True)
 
 
 @gate.check(2, after=arrives)
 def slow_about_people(run: Recording) -> None:
-    """It drives no faster than 0.2 m/s while somebody is within 2.5 m."""
+    """It drives no faster than 0.2 m/s while a person is within 2.5 m."""
     hint = "Two limits for the nearest person: within 1.5 m the speed is 0, within 2.5 m it is 0.2."
     _require_at_most(run, SLOW + MARGIN, _farther, hint)
 
@@ -144,12 +144,12 @@ def _old(moment: KnownState) -> str:
 
 
 def _close(moment: KnownState) -> str:
-    return "somebody was within 1.5 m" if moment.near < NEAR - ABOUT and moment.age < OLD else ""
+    return "a person was within 1.5 m" if moment.near < NEAR - ABOUT and moment.age < OLD else ""
 
 
 def _farther(moment: KnownState) -> str:
     inside = NEAR + ABOUT < moment.near < WIDE - ABOUT and moment.age < OLD
-    return "somebody was within 2.5 m" if inside else ""
+    return "a person was within 2.5 m" if inside else ""
 
 
 def _allowed(moment: KnownState) -> str:

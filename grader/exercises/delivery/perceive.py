@@ -74,7 +74,7 @@ def stamps_by_the_scan(run: Recording) -> None:
         count = len(set(map(_nanoseconds, rows)))
         if count < 4 * run.ended.stamp:
             saw = f"those of {count} scans in {run.ended.stamp:.3g} s"
-            hint = "Tell with every other scan; whoever hears of people late drives on for too long."
+            hint = "Publish with every other scan: a robot that learns of people late drives on for too long."
             raise Missed(f"five scans or more each second on {topic}", saw, hint)
         _require_no_pause(run, topic)
 
@@ -101,7 +101,7 @@ def finds_what_stands(run: Recording) -> None:
 
 @perceive.check(5, after=knows_its_place)
 def finds_who_walks(run: Recording) -> None:
-    """/people has a point of whoever walks in view, and of no box that stands there from the beginning."""
+    """/people has a point of each walking person in view, and none of a box that was there from the start."""
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.0) and _speed_of_person(run, row, 1.0) > WALKS]
     comes = _time(seen[0]) if seen else math.inf
@@ -121,19 +121,19 @@ def finds_who_walks(run: Recording) -> None:
         hint = "Keep the points that moved, each with its time, for five seconds: at times they are missing."
     for row in seen:
         turned = _begins_at_base_link(run, row)
-        _require_person(run, row, "somebody who walks", FROM_THE_MIDDLE if turned else hint)
-    _require_three(run, seen, "somebody who walks")
+        _require_person(run, row, "a person who walks", FROM_THE_MIDDLE if turned else hint)
+    _require_three(run, seen, "a person who walks")
 
 
 @perceive.check(4, after=finds_who_walks)
 def remembers_who_stops(run: Recording) -> None:
-    """Whoever walked, and stops, is told of for some seconds more."""
+    """A person who walked, and stops, stays on /people for some seconds."""
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.2) and _speed_of_person(run, row, 1.2) < STANDS]
     for row in seen:
         hint = "Keep the points that moved, each with its time, for five seconds."
-        _require_person(run, row, "somebody who walked here, and stands now", hint)
-    _require_three(run, seen, "somebody who stands")
+        _require_person(run, row, "a person who walked here, and stands now", hint)
+    _require_three(run, seen, "a person who stands")
 
 
 def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:

@@ -38,9 +38,9 @@ behind = Exercise("behind", "Follow the leader", scenarios=[
 ])
 
 
-@behind.check(2, guess="A TransformListener hears both topics. Publish in the timer's callback.")
+@behind.check(2, guess="A TransformListener subscribes to both topics. Publish in the timer's callback.")
 def subscribes_and_drives(run: Recording) -> None:
-    """The node hears /tf and /tf_static, and sends Twist messages on /cmd_vel."""
+    """The node subscribes to /tf and /tf_static, and sends Twist messages on /cmd_vel."""
     subscribes(run, "/tf", TF)
     subscribes(run, "/tf_static", TF)
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist", at_least=5)
@@ -73,7 +73,7 @@ def stands_behind_one_who_stands(run: Recording) -> None:
 
 @behind.check(4, after=keeps_the_gap)
 def touches_nothing(run: Recording) -> None:
-    """The robot touches nothing, and nobody."""
+    """The robot touches nothing and no one."""
     keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
     lasts(run, "/cmd_vel")
 

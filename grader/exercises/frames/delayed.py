@@ -21,9 +21,9 @@ delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLoc
 detections = Stimuli("/detection", answered_on="/found", within=SOON, what="detections")
 
 
-@delayed.check(2, guess="A TransformListener hears /tf: TransformListener(self.buffer, self).")
+@delayed.check(2, guess="A TransformListener subscribes to /tf: TransformListener(self.buffer, self).")
 def subscribes_to_detections(run: Recording) -> None:
-    """The node hears /detection (PointStamped) and /tf."""
+    """The node subscribes to /detection (PointStamped) and /tf."""
     subscribes(run, "/detection", POINT)
     subscribes(run, "/tf")
 
@@ -52,7 +52,7 @@ def waits_no_longer_than_needed(run: Recording) -> None:
             ready = next(one.stamp for one in _robot(run) if one.measured >= _measured(seen.message) - EDGE)
             what = f"the detection of {seen.stamp:.3g} s on /found"
             if answer.stamp < ready - EDGE:
-                hint = "Nobody knew then where the robot had been. Wait for the time of the detection."
+                hint = "The robot's pose at that time wasn't known yet. Wait for the time of the detection."
                 raise Missed(f"{what} not before {ready:.3g} s", f"at {answer.stamp:.3g} s", hint)
             if answer.stamp > ready + AT_ONCE:
                 hint = "Look again in a timer of 0.05 s, or await what wait_for_transform_async gives."

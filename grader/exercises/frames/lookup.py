@@ -20,9 +20,9 @@ found_sightings = Stimuli("/sighting", answered_on=FOUND, within=SOON, what="sig
 refused_sightings = Stimuli("/sighting", answered_on=REFUSED, within=SOON, what="sightings of all kinds")
 
 
-@lookup.check(2, guess="A TransformListener hears both topics: TransformListener(self.buffer, self).")
+@lookup.check(2, guess="A TransformListener subscribes to both topics: TransformListener(self.buffer, self).")
 def subscribes_to_sightings(run: Recording) -> None:
-    """The node hears /sighting (PointStamped), /tf and /tf_static."""
+    """The node subscribes to /sighting (PointStamped), /tf and /tf_static."""
     subscribes(run, "/sighting", POINT)
     subscribes(run, "/tf")
     subscribes(run, "/tf_static")

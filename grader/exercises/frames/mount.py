@@ -16,7 +16,7 @@ mount = Exercise("mount", "Where the lidar sits", seconds=3, companions=[Mechani
 
 @mount.check(2, guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf.")
 def sends_static_transforms(run: Recording) -> None:
-    """The node hears /mounting (Pose2D), and publishes transforms on /tf_static."""
+    """The node subscribes to /mounting (Pose2D), and publishes transforms on /tf_static."""
     subscribes(run, MOUNTING, "geometry_msgs/msg/Pose2D")
     publishes(run, STATIC, TF)
 

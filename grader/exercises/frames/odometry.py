@@ -24,7 +24,7 @@ odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companion
 
 @odometry.check(2, guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback.")
 def subscribes_and_broadcasts(run: Recording) -> None:
-    """The node hears /wheels/odom, and publishes transforms on /tf."""
+    """The node subscribes to /wheels/odom, and publishes transforms on /tf."""
     subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
     publishes(run, "/tf", TF)
 

@@ -37,7 +37,7 @@ def publishes_commands(run: Recording) -> None:
 @careful.check(4, after=publishes_commands, hints={
     "Positions and limits are radians, all of them: pass the number on as it is.":
         lambda run, request: request.responses and abs(request.values()[0]) > 3.2,
-    "A refusal is not the end: return from the callback, and take the next wish as ever.":
+    "A refusal is not the end: return from the callback, and take the next request as ever.":
         lambda run, request: _silent_since_a_refusal(run, request),
     "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
         lambda run, request: _limits(run)._asdict(),
@@ -64,7 +64,7 @@ def refuses(run: Recording) -> None:
         if request.responses and not _holds_a_jam(run, request.responses[0], REACTION + SOON):
             request.expects_nothing(
                 f"no command after {request.value.data:g} is wanted, at {request.stamp:.3g} s",
-                "Refusing is not cutting: whoever wanted something else must hear that it won't be done. "
+                "Refusing isn't clipping: the sender must learn that the request won't be done. "
                 "Send nothing, and log it.",
             )
 
@@ -93,7 +93,7 @@ def logs_refusals(run: Recording) -> None:
     "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
 })
 def frees_what_is_stuck(run: Recording) -> None:
-    """Where the lift is stuck it is told to stay where it is, within 1.2 s; and at no other time."""
+    """Where the lift is stuck it is commanded to stay where it is, within 1.2 s; and at no other time."""
     for jam in _jams(run):
         if not _is_freed(run, jam):
             sent = Window.after(jam.stamp, REACTION).rows(run.messages(COMMANDS))

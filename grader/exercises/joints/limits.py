@@ -40,7 +40,7 @@ def subscribes_to_both(run: Recording) -> None:
 
 
 @limits.check(8, after=subscribes_to_both, hints={
-    "The description was sent once, before your node was there. Who wants to hear it asks for durability "
+    "The description was sent once, before your node was there. To receive it, request durability "
     "TRANSIENT_LOCAL.": lambda run: all(
         end.qos["durability"] == "volatile"
         for end in run.graph.subscriptions("/robot_description")

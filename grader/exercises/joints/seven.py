@@ -21,7 +21,7 @@ def publishes_commands(run: Recording) -> None:
 
 
 @seven.check(4, after=publishes_commands, hints={
-    "Joints are told radians: a right angle is 1.57. Publish the numbers of the task as they are.":
+    "Joints are commanded in radians: a right angle is 1.57. Publish the numbers of the task as they are.":
         lambda run, sent: any(abs(value) > 3.2 for value in sent),
     "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
         (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})

@@ -148,7 +148,7 @@ def _lessons(run: Recording) -> list[Lesson]:
         if len(sent) != 1:
             expected = f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s"
             hint = ("Send one goal in the callback of /path, each time it is called. Don't wait there for "
-                    "the answer: a node that waits in a callback hears nothing, not even the answer.")
+                    "the answer: a node that waits in a callback receives nothing, not even the answer.")
             raise Missed(expected, f"{len(sent)} of them", hint)
         found.append(Lesson(path, sent[0]))
     return found

@@ -39,13 +39,13 @@ def sends_velocities(run: Recording) -> None:
         lambda run: any(_speeds(run)) and not _turns(run),
     "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?":
         lambda run: not any(_speeds(run)) and not _turns(run),
-    "The robot was never told to go ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
-    "It was told to go backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
+    "The robot was never commanded to drive ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
+    "It was commanded backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
     "The commands stopped too early. Send one with each /odom, until the robot is there.":
         lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1,
     "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.":
         lambda run: travelled(run) < 0.5,
-    "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.":
+    "It was commanded to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.":
         lambda run: _speeds(run)[-1] == 0.0 and run.path[-1]._asdict(),
     "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.":
         lambda run: travelled(run) > _straight(run),

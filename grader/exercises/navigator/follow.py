@@ -67,9 +67,9 @@ def sends_commands(run: Recording) -> None:
 @follow.check(7, after=sends_commands, guess={
     "It only turns on the spot. A positive bearing is to the left, and so is a positive angular.z.":
         lambda run: not any(_speeds(run)) and any(_turns(run)),
-    "The robot was never told to go ahead: linear.x is the speed, such as 0.4 m/s.":
+    "The robot was never commanded to drive ahead: linear.x is the speed, such as 0.4 m/s.":
         lambda run: not any(_speeds(run)),
-    "The robot was never told to turn: angular.z is speed times curvature.":
+    "The robot was never commanded to turn: angular.z is speed times curvature.":
         lambda run: not any(_turns(run)) and _is_slow(run),
     "It hardly turns: the curvature is 2 * sin(bearing) / distance, with the bearing in rad.":
         lambda run: max(map(abs, _turns(run))) < 0.05 and _is_slow(run),
@@ -82,7 +82,7 @@ def sends_commands(run: Recording) -> None:
         lambda run: _trusts_odometry_alone(run),
     "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}":
         lambda run: run.contacts and run.contacts[0]._asdict() | {"corners": CORNERS},
-    "It was told to stop before the end: 0.1 m from the last point is near enough.":
+    "It was commanded to stop before the end: 0.1 m from the last point is near enough.":
         lambda run: _speeds(run)[-1] == 0.0 and not _turns(run)[-1],
     "Draw the point ahead: it has to lie on the path, a little farther on than the robot.": lambda run: True,
 })

@@ -93,13 +93,13 @@ ARRIVES: dict[str, Callable[..., Any]] = {
     "It is said to have succeeded, but the robot is not there. The goal is in the frame map: compare it with "
     "the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
     "No plan was published. In the loop: where there is no path yet, or it is blocked, self.plan(goal). And "
-    f"while a goal is executed the node has to hear /tf and /map: {THREADS}.":
+    f"while a goal is executed the node has to receive /tf and /map: {THREADS}.":
         lambda run, goal, left: not _plans(run),
     "All plans are empty. Is the start where the robot is in the map, and are both cells free?":
         lambda run, goal, left: not any(plan.poses for plan in _plans(run)),
     f"It plans again and again. Does it mark the box, and no more? {TURNED}":
         lambda run, goal, left: run.world.lidar.yaw and len(_plans(run)) > 3,
-    f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}.":
+    f"It only turns on the spot. If self.pose stays the same, no thread is free to receive /tf: {THREADS}.":
         lambda run, goal, left: _stands(run) and any(series(run, "/cmd_vel", "angular.z")),
     "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop.":
         lambda run, goal, left: _stands(run),
@@ -117,7 +117,7 @@ def reaches_the_goal(run: Recording) -> None:
 
 @navigate.check(4, after=serves, only="blocked", hints=ARRIVES)
 def goes_round(run: Recording) -> None:
-    """The robot gets to the goal, too, when a box that is in no map stands in its way; it touches nothing."""
+    """The robot gets to the goal, too, when a box that is in no map blocks its way; it touches nothing."""
     hint = "The map doesn't know the box, but the lidar sees it: plan anew when the path is blocked."
     if len(run.messages("/plan")) > 1:
         hint = f"It planned anew. Is the box inflated, and marked where it is? {TURNED}"

@@ -45,7 +45,7 @@ def answers_a_goal(run: Recording) -> list[Point]:
         saw = "no path" if path is None else "a path without poses"
         raise Missed(f"a path to the goal that was sent at {stamp:.3g} s", saw, guess=guess)
     if path.header.frame_id != "map":
-        hint = 'Without a frame nobody knows where the points lie: path.header.frame_id = "map".'
+        hint = 'Without a frame no one knows where the points are: path.header.frame_id = "map".'
         raise Missed("the frame “map” in the path's header", f"“{path.header.frame_id}”", hint)
     return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
 

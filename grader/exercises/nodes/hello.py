@@ -11,7 +11,7 @@ HELLO = r"^\W*?Hello, robot!"
 @hello.check(7)
 def logs_hello(run: Recording) -> None:
     """The node logs “Hello, robot!” at info level."""
-    silent = "Debug lines are hidden, so use info; and a method that nobody calls says nothing."
+    silent = "Debug lines are hidden, so use info; and a method that isn't called logs nothing."
     with hinting("" if run.logs or run.prints else silent):
         logs(run, HELLO, level="INFO", example="Hello, robot!")
 

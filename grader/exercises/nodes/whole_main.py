@@ -43,7 +43,7 @@ def ends_quietly(run: Recording) -> Trace:
 @whole_main.check(3, after=(ends_quietly, counts_down))
 def logs_engine_off(run: Recording, trace: Trace, counted: Seconds) -> None:
     """After Ctrl-C the node logs “Engine off”."""
-    with hinting("What has to be done at the end, whatever happens, stands in the finally block."):
+    with hinting("What has to be done at the end, whatever happens, belongs in the finally block."):
         last = logs(run, r"^\W*?engine off", example="Engine off")[-1].stamp
         if last <= counted:
             raise Missed(f"“Engine off” after Ctrl-C, at {counted + 1:g} s", f"it at {last:.3g} s")

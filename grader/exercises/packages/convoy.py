@@ -51,7 +51,7 @@ def drives_both(run: PackageRun) -> None:
 
 @convoy.check(2, after=drives_both)
 def leaves_the_third_alone(run: PackageRun) -> None:
-    """The robot in the middle is nobody's: it stays where it is."""
+    """The robot in the middle has no driver: it stays where it is."""
     moved = abs(run.path[-1].x - run.path[0].x)
     if moved > MOVED:
         hint = "A program too many drives it: each Node of the launch file has a namespace, left or right."

@@ -100,10 +100,10 @@ def makes_types(run: PackageRun) -> None:
     for name in ("rosidl_default_generators", USED):
         if name not in found:
             saw = f"{', '.join(found) or 'nothing'} before {GENERATOR}"
-            raise _line(f"find_package({name} REQUIRED)", saw, "CMake knows only what it was told to find.")
+            raise _line(f"find_package({name} REQUIRED)", saw, "CMake finds only what find_package names.")
     _hands_over(commands[place], sources)
     if "ament_package" not in names[place:]:
-        hint = "Without it, nobody finds what was installed."
+        hint = "Without it, what was installed isn't found."
         raise _line("ament_package() at the end", "none there", hint)
 
 
@@ -166,5 +166,5 @@ def _differs(there: tuple[str, ...], wanted: tuple[str, ...]) -> str:
             return f"Write `{field}`: with another type, programs don't understand each other."
     for field in there:
         if field not in wanted:
-            return f"Nobody asked for `{field}`: leave it out."
+            return f"The task doesn't ask for `{field}`: leave it out."
     return "Put them in this order: it is the one in which they are sent."

@@ -65,7 +65,7 @@ def has_a_module(run: PackageRun) -> None:
 
 @gauge.check(3, after=has_a_module)
 def module_is_plain(run: PackageRun) -> None:
-    """gauge/convert.py knows nothing of ROS: whoever tests it needs no robot."""
+    """gauge/convert.py doesn't use ROS: it can be tested without a robot."""
     found = [name for name in imports(package_of(run).sources[PLACE]) if ROS.fullmatch(name.split(".")[0])]
     if found:
         hint = "Give the function a number, and let it return one. Messages stay in the node."

@@ -34,7 +34,7 @@ class Times(NamedTuple):
 
 @latch.check(3, guess="Two subscriptions, a publisher for the robot, and create_service(Trigger, ...).")
 def stands_between(run: Recording) -> None:
-    """The node hears /cmd_vel_raw and /emergency, serves /reset (Trigger), and publishes on /cmd_vel."""
+    """The node subscribes to /cmd_vel_raw and /emergency, serves /reset (Trigger) and publishes /cmd_vel."""
     subscribes(run, RAW, TWIST)
     subscribes(run, BUTTON, "std_msgs/msg/Bool")
     serves(run, RESET, "std_srvs/srv/Trigger")
@@ -114,7 +114,7 @@ def stops_without_the_button(run: Recording) -> None:
     asked = resets[0].requested if resets else when.cut + DEAF
     require_standing(run, Window(when.cut + DEAF, asked), f"{DEAF:g} s after the button's last word", hint)
     hint = BROKEN if any(call.response and call.response.success for call in resets) else LATCH
-    require_standing(run, Window(asked, run.ended.stamp), "until somebody resets it", hint)
+    require_standing(run, Window(asked, run.ended.stamp), "until it is reset", hint)
 
 
 def _times(run: Recording) -> Times:

@@ -37,7 +37,7 @@ class MuxSample(NamedTuple):
 
 @mux.check(3, guess="Two subscriptions, one for each driver, and a publisher for the robot.")
 def stands_between(run: Recording) -> None:
-    """The node hears /cmd_vel_joy and /cmd_vel_nav, and publishes Twist messages on /cmd_vel."""
+    """The node subscribes to /cmd_vel_joy and /cmd_vel_nav, and publishes Twist messages on /cmd_vel."""
     for topic in (JOY, NAV):
         subscribes(run, topic, TWIST)
     publishes(run, OUT, TWIST, at_least=10)

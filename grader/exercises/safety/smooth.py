@@ -69,7 +69,7 @@ def gets_there(run: Recording) -> None:
             abs(pair.sent) > abs(pair.right) and pair.sent * pair.right > 0 and pair.requested != pair.right
         )
         if pair.right and steps >= LONG and not beyond:
-            _same(pair, pair.right, "Add the step again and again, until the wish is reached, or the limit.")
+            _same(pair, pair.right, "Add the step again and again, up to the request or the limit.")
 
 
 @smooth.check(2, after=gets_there)
@@ -79,7 +79,7 @@ def keeps_the_limits(run: Recording) -> None:
         if not abs(pair.sent) <= pair.axis.most + NEAR:
             saw = f"{pair.sent:.3g} {pair.axis.unit} at {pair.stamp:.3g} s"
             expected = f"{pair.axis.name} up to {pair.axis.most:g} {pair.axis.unit}"
-            hint = f"Cut the wish first: max(-{pair.axis.most:g}, min({pair.axis.most:g}, wish))."
+            hint = f"Clip the wish first: max(-{pair.axis.most:g}, min({pair.axis.most:g}, wish))."
             raise Missed(expected, saw, hint, unsafe=True)
 
 
@@ -96,7 +96,7 @@ def speeds_up_gently(run: Recording) -> None:
 
 @smooth.check(2, after=gets_there)
 def stops_at_once(run: Recording) -> None:
-    """To slow down takes no time: a wish of 0 is obeyed at once."""
+    """To slow down takes no time: a request of 0 is obeyed at once."""
     for pair in _pairs(run):
         if pair.requested == 0.0:
             hint = "A limit on braking makes the way to stop longer: step only where the speed grows."
@@ -105,7 +105,7 @@ def stops_at_once(run: Recording) -> None:
 
 @smooth.check(2, after=gets_there)
 def takes_no_nonsense(run: Recording) -> None:
-    """A wish that is no finite number counts as 0, and the next good one is obeyed again."""
+    """A request that is no finite number counts as 0, and the next valid one is obeyed again."""
     for pair in _pairs(run):
         if not math.isfinite(pair.requested):
             hint = "min and max let NaN through, or make the limit of it. Ask math.isfinite(wish) first."
@@ -146,5 +146,5 @@ def _why_jerky(pair: Response) -> str:
     if pair.sent * pair.before < 0:
         return "From forwards to backwards it goes through 0: take 0 as the speed to step away from."
     if pair.sent < 0:
-        return "Backwards is as fast as forwards: the sign of the wish decides which way the step goes."
+        return "Backwards is as fast as forwards: the sign of the request decides which way the step goes."
     return "Remember what you sent last, and go at most one step beyond it."

@@ -56,7 +56,7 @@ guard = Exercise("guard", "A guard for the robot", scenarios=[
     3, guess="The driver talks on /cmd_vel_raw, the lidar on /lidar, and the robot listens to /cmd_vel."
 )
 def stands_between(run: Recording) -> None:
-    """The node hears /cmd_vel_raw and /lidar, and publishes Twist messages on /cmd_vel."""
+    """The node subscribes to /cmd_vel_raw and /lidar, and publishes Twist messages on /cmd_vel."""
     subscribes(run, RAW, TWIST)
     subscribes(run, LIDAR, "sensor_msgs/msg/LaserScan")
     publishes(run, OUT, TWIST, at_least=10)

@@ -25,7 +25,7 @@ gyro = Exercise("gyro", "A gyro without drift", world="lab", seconds=28, compani
 
 @gyro.check(3, lasts=True)
 def sums_up(run: Recording) -> Headings:
-    """The node hears /imu/data, and publishes Float64 messages on /heading, from start to end."""
+    """The node subscribes to /imu/data, and publishes Float64 messages on /heading, from start to end."""
     subscribes(run, "/imu/data", "sensor_msgs/msg/Imu")
     sent = publishes(run, HEADING, "std_msgs/msg/Float64", at_least=50)
     pause = max(after.stamp - before.stamp for before, after in itertools.pairwise(sent))

@@ -22,7 +22,7 @@ heading = Exercise("heading", "A compass from odometry", world="yard", seconds=2
 
 @heading.check(2)
 def publishes_a_heading(run: Recording) -> Headings:
-    """The node hears /odom, and publishes Float64 messages on /heading."""
+    """The node subscribes to /odom, and publishes Float64 messages on /heading."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
     publishes(run, HEADING, "std_msgs/msg/Float64", at_least=20)
     return series(run, HEADING, "data")

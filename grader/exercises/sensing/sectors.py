@@ -43,7 +43,7 @@ sectors = Exercise("sectors", "Ahead, left and right", scenarios=[
 
 @sectors.check(3)
 def publishes_three_distances(run: Recording) -> list[SectorValue]:
-    """The node hears /scan, and publishes Float64 messages on /front, /left and /right."""
+    """The node subscribes to /scan, and publishes Float64 messages on /front, /left and /right."""
     subscribes(run, "/scan", SCAN)
     with hinting(guess="A publisher for each of the three, and a message on each after every scan."):
         for topic in MIDDLES:

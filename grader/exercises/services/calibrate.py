@@ -47,7 +47,7 @@ def refuses_too_early(run: Recording) -> None:
 @calibrate.check(4, after=offers_to_calibrate)
 def gyro_reads_zero(run: Recording) -> None:
     """After a calibration /gyro/rate is 0 on average, with the robot at rest."""
-    hint = "In hear: publish the reading minus self.bias."
+    hint = "In the callback: publish the reading minus self.bias."
     for number, it in enumerate(_calibrations(run)):
         if math.isnan(it.rate):
             raise Missed(f"messages on {RATE} after {call_text(it.call)}", "none", hint, picture="topics")

@@ -37,7 +37,7 @@ def declares_speed(run: Recording) -> float:
 
 @parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
-    """As long as nobody sets it the speed is 0.2, and the robot drives with that."""
+    """As long as it isn't set the speed is 0.2, and the robot drives with that."""
     _begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
@@ -69,7 +69,7 @@ def refuses_other_speeds(run: Recording) -> None:
                      f"parameter.name is `speed`, unless {INSIDE}?")
             if _is_cut(run, call):
                 guess = (
-                    "Cutting a value to the range doesn't refuse it: whoever sets it is told that all is "
+                    "Clipping a value to the range doesn't reject it: the request succeeds, "
                     "well, and the robot does something else. Return SetParametersResult(successful=False, "
                     'reason="...").'
                 )

@@ -13,7 +13,7 @@ GIVEN_AWAY = 2  # right answers, or systems fixed, that earn nothing: they may b
 # The parameter that fixes a fault; where there is no sensor, none does.
 SETTINGS = {"reliability", "durability", "deadline"}
 CURES = {"name": "topic", "mute": "running"} | {name: name for name in SETTINGS}
-CHANGES_ALL = "If you change everything, you mend by chance, and break what was right. Find the fault first."
+CHANGES_ALL = "If you change everything, you fix by chance, and break what was right. Find the fault first."
 WHY = {
     "name": "A publisher has nearly this name. Compare with all topics: get_topic_names_and_types().",
     "nobody": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
@@ -43,7 +43,7 @@ class Diagnosed(NamedTuple):
 
 @doctor.check(2)
 def answers_complaints(run: Recording) -> None:
-    """The node hears /complaint, and publishes String messages on /diagnosis."""
+    """The node subscribes to /complaint, and publishes String messages on /diagnosis."""
     with hinting("The callback of /complaint is `hear`: it publishes what `examine` returns."):
         subscribes(run, "/complaint", STRING)
         publishes(run, "/diagnosis", STRING)
@@ -74,7 +74,7 @@ def names_the_faults(run: Recording) -> None:
 
 @doctor.check(8, after=answers_complaints)
 def fixes_the_faults(run: Recording) -> None:
-    """It mends the fault, by that alone: every display hears its sensor again, where there is one."""
+    """It fixes the fault, by that alone: every display receives from its sensor again, if there is one."""
     systems = [one for one in _systems(run) if one.case.fault != "nobody"]
     broken = [one for one in systems if not one.receives or one.idle]
     if broken:
@@ -83,15 +83,15 @@ def fixes_the_faults(run: Recording) -> None:
         if not first.changes:
             done = "nothing was set at the display, or it was refused"
         expected = f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”"
-        saw = f"it hears {'again' if first.receives else 'nothing'}, and {done}; "
-        saw += f"{right} of {len(systems)} were mended so"
+        saw = f"it receives {'again' if first.receives else 'nothing'}, and {done}; "
+        saw += f"{right} of {len(systems)} were fixed so"
         hint = CHANGES_ALL if first.idle else _why_broken(first)
         raise Missed(expected, saw, hint, credit=_share(right, len(systems)))
 
 
 @doctor.check(2, after=fixes_the_faults)
 def touches_nothing_else(run: Recording) -> None:
-    """It sets only what is at fault: nothing at a display that waits for nobody, and no other parameter."""
+    """It sets only what is at fault: nothing at a display without a sensor, and no other parameter."""
     for one in _systems(run):
         if one.idle:
             needed = CURES.get(one.case.fault, "")

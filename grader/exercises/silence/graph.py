@@ -30,7 +30,7 @@ WRONG = {
         lambda run, one: set(_names(one)) == set(one.speakers),
     "The full name begins with the namespace: node_namespace, a slash, node_name. In the namespace / itself "
     "there is only one slash.": lambda run, one: _bare(_names(one)) == _bare(one.speakers),
-    "Somebody is missing. Ask ROS anew at each question, for nodes come and go; and take all of them.":
+    "A node is missing. Ask ROS again at each question, because nodes come and go; and take all of them.":
         lambda run, one: set(_names(one)) < set(one.speakers),
     "Ask about the topic that the question names: msg.data.": otherwise,
 }
@@ -55,21 +55,21 @@ class GraphQuestion(NamedTuple):
 
 @graph.check(2)
 def answers_at_all(run: Recording) -> None:
-    """The node hears /question, and publishes String messages on /answer."""
+    """The node subscribes to /question, and publishes String messages on /answer."""
     subscribes(run, QUESTION, STRING)
     publishes(run, ANSWER, STRING)
 
 
 @graph.check(7, after=answers_at_all, hints=WRONG)
 def names_the_publishers(run: Recording) -> None:
-    """Where somebody publishes, one answer names all who do: full names, sorted, each once."""
+    """If the topic has publishers, one answer names all their nodes: full names, sorted, each once."""
     questions = [one for one in _questions(run.during(0.0, LATE)) if one.speakers]
     _right(run, questions, "topics that have publishers")
 
 
 @graph.check(2, after=names_the_publishers, hints=WRONG)
 def answers_nobody(run: Recording) -> None:
-    """Where nobody publishes, the answer is “nobody”."""
+    """If it has none, the answer is “nobody”."""
     questions = [one for one in _questions(run) if not one.speakers]
     _right(run, questions, "topics without publishers")
 

@@ -24,7 +24,7 @@ joystick = Exercise("joystick", "A joystick that falls silent", world="yard", se
 
 @joystick.check(2)
 def stands_between(run: Recording) -> None:
-    """The node hears /joystick, and publishes Twist messages on /cmd_vel."""
+    """The node subscribes to /joystick, and publishes Twist messages on /cmd_vel."""
     with hinting("The joystick talks on /joystick, and the robot listens to /cmd_vel."):
         subscribes(run, RAW, TWIST)
         publishes(run, SENT, TWIST, at_least=10)
@@ -117,7 +117,7 @@ def _deadline(run: Recording) -> Seconds:
 
 def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
     if _deadline(run) > LONGEST + EDGE:
-        return f"Nobody is told that it is late, unless a deadline is asked for. {PROFILE}"
+        return f"A late message isn't reported unless a deadline is requested. {PROFILE}"
     if not run.during(begin, end).messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
     return ("The callback for a missed deadline belongs to the subscription: "

@@ -30,11 +30,11 @@ def subscribes_to_the_map(run: Recording) -> None:
     "Count the cells of msg.data that are 0; -1 means that nothing is known there.": otherwise,
 })
 def receives_the_latched_map(run: Recording) -> None:
-    """It hears the map that was published before it began: its free cells (Int32) are on /free at once."""
+    """It receives the map that was published before it started: its free cells (Int32) are on /free."""
     free, first = _truth(run)[0], publishes(run.during(0.0, run.ended.stamp), "/free", COUNT)[0]
     if first.stamp > SOON:
-        hint = ("The map was published before your node was there, and only once. Who wants to hear it asks "
-                "for durability TRANSIENT_LOCAL, and stays reliable.")
+        hint = ("The map was published before your node was there, and only once. To receive it, request "
+                "durability TRANSIENT_LOCAL, and stay reliable.")
         raise Missed(f"{free} on /free within {SOON:g} s", f"nothing there before {first.stamp:.3g} s", hint)
     if first.message.data != free:
         raise Missed(f"{free} free cells", f"{first.message.data}", about=(first.message.data,))
@@ -54,13 +54,13 @@ def publishes_once_for_each_map(run: Recording) -> None:
 
 @late.check(4, after=receives_the_latched_map)
 def latches_the_count(run: Recording) -> None:
-    """Who comes at 3 s hears it, though it was sent long before."""
+    """A node that starts at 3 s receives it, although it was published long before."""
     _received(run, FIRST, _truth(run)[0])
 
 
 @late.check(3, after=latches_the_count)
 def only_the_newest_counts(run: Recording) -> None:
-    """A node that comes at 7 s hears the count of the newest map, and of no other."""
+    """A node that starts at 7 s receives the count of the newest map, and of no other."""
     _received(run, SECOND, _truth(run)[-1])
 
 

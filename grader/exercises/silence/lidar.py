@@ -36,7 +36,7 @@ def subscribes_to_scans(run: Recording) -> None:
 
 @lidar.check(3, after=subscribes_to_scans)
 def receives_every_scan(run: Recording) -> list[Counted]:
-    """It hears the scans: with each that comes, one count (Int32) goes out on /missed."""
+    """It receives the scans: with each that comes, one count (Int32) goes out on /missed."""
     counts = publishes(run, "/missed", COUNT)
     # Each subscribing node loses other messages; one of the nodes counts.
     crossings = [one for one in run.crossings if one.topic == "/scan"]
@@ -90,7 +90,7 @@ def _requires_listening(run: Recording, sent: int) -> None:
     begun = run.started_at + BEGUN
     due = [row for row in run.messages("/scan") if begun < row.stamp < worked_until(run)]
     if sent < MOST * len(due):
-        saw = f"{sent} of {len(due)} scans were sent to it: then nobody listened"
+        saw = f"{sent} of {len(due)} scans were sent to it: then the subscription was gone"
         hint = "Create the subscription in __init__, keep it, and never destroy it."
         raise Missed("a subscription to /scan from start to end", saw, hint)
 

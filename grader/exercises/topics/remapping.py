@@ -16,7 +16,7 @@ def commands_reach_the_robot(run: Recording) -> None:
 
 @remapping.check(4, guess=PAIRS)
 def odometry_reaches_the_node(run: Recording) -> None:
-    """The node hears the robot's /odom."""
+    """The node subscribes to the robot's /odom."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
 
 

@@ -72,11 +72,11 @@ def test_serves_action_misses_one_that_nobody_offers():
     miss = missed(serves_action, recording(), "/fibonacci", FIBONACCI)
     assert (miss.expected, miss.saw) == (
         f"an action server /fibonacci of type {FIBONACCI}",
-        "nobody offers it",
+        "no server for it",
     )
     miss = missed(serves_action, ran(misfits.MisspeltAction), "/fibonacci")
     assert (miss.saw, miss.hint) == (
-        "nobody offers it; there is /fibonaci", "Is /fibonaci a typing slip? Did you mean /fibonacci?",
+        "no server for it; there is one for /fibonaci", "Is /fibonaci a typo? Did you mean /fibonacci?",
     )  # fmt: skip
     miss = missed(serves_action, ran(actions.Server), "/fibonacci", NAVIGATE)
     assert miss.hint == f"Both ends of an action must use the same type: on /fibonacci it is {NAVIGATE}."
@@ -90,7 +90,7 @@ def test_sends_goals_gives_the_goals():
 
 def test_sends_goals_misses_a_client_and_its_goals():
     miss = missed(sends_goals, ran(actions.Server), "/fibonacci")
-    assert (miss.expected, miss.saw) == ("an action client for /fibonacci", "nobody has a client for it")
+    assert (miss.expected, miss.saw) == ("an action client for /fibonacci", "no client for it")
     miss = missed(sends_goals, ran(actions.Server), "/fibonacci", FIBONACCI)
     assert miss.expected == f"an action client for /fibonacci of type {FIBONACCI}"
     miss = missed(sends_goals, ran(actions.Client, seconds=1), "/fibonacci", FIBONACCI)
@@ -129,7 +129,7 @@ def test_a_decision_is_missed_where_there_is_none():
 
 
 def test_a_decision_needs_somebody_who_asks():
-    assert missed(accepts, recording(), "/fibonacci").saw == "nobody offers it"
+    assert missed(accepts, recording(), "/fibonacci").saw == "no server for it"
     both, high = ran(actions.Server, actions.Client), {"where": lambda goal: goal.request.order > 5}
     miss = missed(accepts, both, "/fibonacci", **high)
     assert (miss.expected, miss.saw) == ("goals for /fibonacci that fit", "1, and none of them is one")
@@ -303,13 +303,13 @@ def test_cancels_allows_a_second_but_for_rounding():
 def test_a_goal_that_the_course_should_have_canceled_is_none_of_the_students_misses():
     run = asked((3, succeeded(0.0, 1.0)))
     run.graph.endpoints.append(Endpoint("action client", "/course", "/fibonacci", FIBONACCI, {}, True))
-    with pytest.raises(ValueError, match="should have sent goals for /fibonacci that somebody cancels: none"):
+    with pytest.raises(ValueError, match="should have sent goals for /fibonacci that are canceled: none"):
         cancels(run, "/fibonacci")
 
 
 def test_cancels_needs_somebody_who_asks():
     miss = missed(cancels, ran(actions.Server, actions.Client), "/fibonacci")
-    assert (miss.expected, miss.saw) == ("goals for /fibonacci that somebody cancels", "none")
+    assert (miss.expected, miss.saw) == ("goals for /fibonacci that are canceled", "none")
 
 
 def test_a_long_goal_is_cut_in_words():

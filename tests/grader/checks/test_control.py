@@ -106,8 +106,8 @@ def quick(force, period=0.01):
 
 def seldom(seconds):
     return (
-        f"The efforts came too seldom: up to {seconds} s passed between two of them. The pole falls while nobody "
-        "looks: push at each joint state, and let nothing hold the loop up."
+        f"The efforts came too seldom: up to {seconds} s passed between two of them. The pole falls in the "
+        "meantime: push at each joint state, and let nothing hold the loop up."
     )
 
 
@@ -192,7 +192,7 @@ def test_efforts_have_limits():
 
 def test_an_effort_that_goes_elsewhere_has_a_hint_of_its_own():
     run = published("/cart_efort", [(0.1, Float64(data=2.0))])
-    assert missed(keeps_to_limits, run, 3.0).hint == "Is /cart_efort a typing slip? Did you mean /cart_effort?"
+    assert missed(keeps_to_limits, run, 3.0).hint == "Is /cart_efort a typo? Did you mean /cart_effort?"
 
 
 def ticking(*moments, seconds):

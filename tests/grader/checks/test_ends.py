@@ -43,12 +43,12 @@ def test_the_students_ends_of_a_kind_a_name_and_a_type_are_found(kind):
 @pytest.mark.parametrize(
     ("kind", "nobody", "instead"),
     [
-        ("publisher", "nobody publishes there", "publishes on /far"),
-        ("subscription", "nobody listens there", "listens on /far"),
-        ("service", "nobody offers it", "there is /far"),
-        ("client", "nobody has a client for it", "there is one for /far"),
-        ("action server", "nobody offers it", "there is /far"),
-        ("action client", "nobody has a client for it", "there is one for /far"),
+        ("publisher", "no publisher there", "there is one on /far"),
+        ("subscription", "no subscription there", "there is one to /far"),
+        ("service", "no server for it", "there is one for /far"),
+        ("client", "no client for it", "there is one for /far"),
+        ("action server", "no server for it", "there is one for /far"),
+        ("action client", "no client for it", "there is one for /far"),
     ],
 )
 def test_where_there_is_none_the_others_of_its_kind_are_named(kind, nobody, instead):
@@ -63,7 +63,7 @@ def test_where_there_is_none_the_others_of_its_kind_are_named(kind, nobody, inst
 @pytest.mark.parametrize("kind", OTHER)
 def test_one_of_nearly_the_same_name_is_a_typo_unless_it_is_connected_or_of_the_course(kind):
     miss = missed(graph((kind, "/temperatur", FLOAT32, False)), kind, "/temperature", "")
-    assert miss.hint == "Is /temperatur a typing slip? Did you mean /temperature?"
+    assert miss.hint == "Is /temperatur a typo? Did you mean /temperature?"
     assert miss.typo == ("/temperatur", "/temperature")
     connected = (kind, "/temperatur", FLOAT32, False), (OTHER[kind], "/temperatur", FLOAT32, True)
     assert missed(graph(*connected), kind, "/temperature", "").typo is None
@@ -72,7 +72,7 @@ def test_one_of_nearly_the_same_name_is_a_typo_unless_it_is_connected_or_of_the_
 
 @pytest.mark.parametrize("topic", ["/rosout", "/parameter_events", "/clock"])
 def test_topics_that_every_node_has_are_not_named(topic):
-    assert missed(graph(("publisher", topic, FLOAT32, False)), "publisher", "/near", "").saw == "nobody publishes there"
+    assert missed(graph(("publisher", topic, FLOAT32, False)), "publisher", "/near", "").saw == "no publisher there"
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def test_logs_shows_the_most_similar_line():
 def test_logs_sees_that_an_f_is_missing():
     miss = missed(logs, logged((1.0, "INFO", "count: {self.count}")), r"count: \d")
     assert miss.saw == "“count: {self.count}”"
-    assert miss.hint == 'Put an f before the quotes: f"..." fills in what stands in braces.'
+    assert miss.hint == 'Put an f before the quotes: f"..." fills in what is in braces.'
 
 
 @pytest.mark.parametrize(
@@ -167,7 +167,7 @@ def test_come_every_wants_a_timer_for_a_right_pace_too_and_gives_the_lines_to_la
     miss = pace(run, credit=0.25)
     assert (miss.expected, miss.saw) == ("a timer that sets the pace", "a line every 1 s, but no timer")
     assert miss.hint == (
-        "A node hears nothing and answers nobody while a loop of its own sleeps: create_timer(1, method) has a "
+        "A node receives and answers nothing while a loop of its own sleeps: create_timer(1, method) has a "
         "method called again and again, and leaves the node free."
     )
     assert (miss.credit, miss.measured) == (0.25, logs(run, "beat"))

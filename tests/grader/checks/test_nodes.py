@@ -27,7 +27,7 @@ def test_named_finds_the_node():
     named(talker, "/talker")
     miss = missed(named, talker, "/talkers")
     assert (miss.expected, miss.saw) == ("a node called /talkers", "/talker")
-    assert miss.hint == "Is /talker a typing slip? Did you mean /talkers?"
+    assert miss.hint == "Is /talker a typo? Did you mean /talkers?"
     assert miss.typo == ("__node", "talkers")
     assert missed(named, talker, "/camera").typo is None
     assert missed(named, recording(graph=Graph(["/eye", "/ear"])), "/talker").saw == "/eye, /ear"

@@ -47,7 +47,7 @@ def test_a_package_names_what_its_modules_and_launch_files_import_of_ros():
     assert miss.expected == f"<depend> or <exec_depend> for each of {', '.join(WANTED)} in package.xml"
     assert miss.saw == "none for geometry_msgs, launch"
     assert miss.hint == (
-        "Whoever installs your package gets what package.xml names. Here all of ROS is there, so it runs all the same. "
+        "Anyone who installs your package gets what package.xml names. Here all of ROS is there, so it runs all the same. "
         "Add <depend>geometry_msgs</depend>."
     )
 

@@ -48,13 +48,13 @@ def test_serves_finds_the_server():
 
 def test_serves_misses_a_service_that_nobody_offers():
     miss = missed(serves, recording(), "/add", ADD)
-    assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "nobody offers it")
+    assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "no server for it")
 
 
 def test_serves_points_at_a_name_that_is_nearly_the_same():
     miss = missed(serves, ran(misfits.MisspeltService, services.done_callback), "/add")
-    assert (miss.expected, miss.saw) == ("a service /add", "nobody offers it; there is /ad")
-    assert miss.hint == "Is /ad a typing slip? Did you mean /add?"
+    assert (miss.expected, miss.saw) == ("a service /add", "no server for it; there is one for /ad")
+    assert miss.hint == "Is /ad a typo? Did you mean /add?"
 
 
 def test_serves_misses_another_type():
@@ -75,14 +75,14 @@ def test_calls_gives_the_calls():
 
 def test_calls_misses_a_client_and_its_calls():
     miss = missed(calls, ran(services.Adder), "/add", ADD)
-    assert (miss.expected, miss.saw) == (f"a client for /add of type {ADD}", "nobody has a client for it")
+    assert (miss.expected, miss.saw) == (f"a client for /add of type {ADD}", "no client for it")
     miss = missed(calls, ran(services.Customer), "/add")
     assert (miss.expected, miss.saw) == ("a call of /add", "a client, but no call")
     miss = missed(calls, ran(services.many_calls), "/add", at_least=6)
     assert (miss.expected, miss.saw) == ("6 or more calls of /add", "only 5 in 4 s")
     miss = missed(calls, ran(services.many_calls), "/ad")
     assert (miss.saw, miss.hint) == (
-        "nobody has a client for it; there is one for /add", "Is /add a typing slip? Did you mean /ad?",
+        "no client for it; there is one for /add", "Is /add a typo? Did you mean /ad?",
     )  # fmt: skip
 
 
@@ -208,7 +208,7 @@ def test_the_courses_calls_are_those_that_the_course_requested():
 def test_who_offers_no_service_of_the_type_sees_how_to_make_one():
     offers(ran(services.Adder), "/add", ADD)
     miss = missed(offers, recording(), "/add", ADD)
-    assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "nobody offers it")
+    assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "no server for it")
     assert miss.hint == 'self.create_service(AddTwoInts, "/add", self.callback) offers one.'
 
 

@@ -123,12 +123,12 @@ def test_who_publishes_on_a_topic_of_ours_is_told_and_judged_no_further():
         "two, /robot and /robot of yours",
         "Other nodes can't tell the two apart: use a name of your own, or only listen.",
     )
-    assert right.hint == "Not judged: nobody can tell what came from whom, see above."
+    assert right.hint == "Not graded: it isn't clear which program sent what, see above."
 
 
 def test_an_end_of_ours_is_none_of_the_students():
     asked = run(Asker, companions=[Asker], seconds=1, quiet=True)
     assert calls(asked, "/ask")
     ours = [end._replace(from_course=True) for end in asked.graph.endpoints]
-    with pytest.raises(Missed, match="nobody has a client for it"):
+    with pytest.raises(Missed, match="no client for it"):
         calls(dataclasses.replace(asked, graph=dataclasses.replace(asked.graph, endpoints=ours)), "/ask")

@@ -32,7 +32,7 @@ def test_publishes_gives_the_messages():
 
 def test_publishes_misses_a_topic_nobody_publishes():
     miss = missed(publishes, recording(), "/chatter")
-    assert (miss.expected, miss.saw, miss.hint) == ("messages on /chatter", "nobody publishes there", "")
+    assert (miss.expected, miss.saw, miss.hint) == ("messages on /chatter", "no publisher there", "")
 
 
 def test_publishes_points_at_a_name_that_is_nearly_the_same():
@@ -40,14 +40,14 @@ def test_publishes_points_at_a_name_that_is_nearly_the_same():
         publishes, run(misfits.MisspeltTopic, seconds=2, quiet=True), "/chatter", "std_msgs/msg/String"
     )
     assert miss.expected == "messages of type std_msgs/msg/String on /chatter"
-    assert miss.saw == "nobody publishes there; publishes on /chater"
-    assert miss.hint == "Is /chater a typing slip? Did you mean /chatter?"
+    assert miss.saw == "no publisher there; there is one on /chater"
+    assert miss.hint == "Is /chater a typo? Did you mean /chatter?"
 
 
 def test_publishes_takes_no_connected_topic_for_a_slip():
     run_ = published("/chatters", [(1.0, String())], listeners=["/listener"])
     miss = missed(publishes, run_, "/chatter")
-    assert (miss.saw, miss.hint) == ("nobody publishes there", "")
+    assert (miss.saw, miss.hint) == ("no publisher there", "")
 
 
 def test_publishes_misses_another_type():
@@ -63,7 +63,7 @@ def test_a_rate_misses_messages_that_nobody_can_hear():
     recorded = run(misfits.NewPublisherEachTime, seconds=5, quiet=True)
     assert len(publishes(recorded, "/chatter")) == 5
     miss = missed(rate, recorded, "/chatter", 1.0)
-    assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that nobody can hear")
+    assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that are never received")
     assert miss.hint.startswith("/talker made 5 publishers on /chatter for 5 messages. Two programs need")
     assert miss.picture == "topics"
 
@@ -97,7 +97,7 @@ def test_subscribes_misses_with_what_is_listened_to():
     graph = Graph(["/listener"], [Endpoint("subscription", "/listener", "/cmd", "std_msgs/msg/String", {})])
     miss = missed(subscribes, recording(graph=graph), "/robot/command", "std_msgs/msg/String")
     assert miss.expected == "a subscription to /robot/command of type std_msgs/msg/String"
-    assert miss.saw == "nobody listens there; listens on /cmd"
+    assert miss.saw == "no subscription there; there is one to /cmd"
 
 
 def test_rate_is_measured_in_simulated_time():
@@ -195,7 +195,7 @@ def test_within_misses_the_first_value_outside():
 
 
 def test_within_misses_a_topic_nobody_publishes():
-    assert missed(within, recording(), "/temperature", "data", 20, 25).saw == "nobody publishes there"
+    assert missed(within, recording(), "/temperature", "data", 20, 25).saw == "no publisher there"
 
 
 def test_within_lets_no_nan_pass():

@@ -268,7 +268,7 @@ def test_of_topics_with_two_owners_the_first_is_named_and_carries_no_points():
         "Other nodes can't tell the two apart: use a name of your own, or only listen.",
     )
     assert (first.status, first.earned) == ("passed", 1.0)
-    hint = "Not judged: nobody can tell what came from whom, see above."
+    hint = "Not graded: it isn't clear which program sent what, see above."
     assert (second.status, second.earned, second.hint) == ("skipped", 0.0, hint)
 
 

@@ -5,7 +5,7 @@ from tests.students.engine import actions, callers, goals, services
 
 SLIP = "/customer calls /add, {}: two different services. "
 SPIN = (
-    "never heard it: answers come in while the node spins. Call rclpy.spin(node), or "
+    "never received it: answers come in while the node spins. Call rclpy.spin(node), or "
     "rclpy.spin_until_future_complete(node, future)."
 )
 FIRST = "two programs need a moment to discover each other, and what is sent before that is lost. Wait first:"
@@ -30,7 +30,7 @@ SERVICE_CAUSES = {
     ): f"/wheel {DROPPED.format('`mass`')} It declares `radius`, `name`.",
     (misfits.launch_with_a_parameter_for_none,): f"/adder {DROPPED.format('`mass`')} It declares none.",
     (misfits.MisspeltService, services.done_callback): SLIP.format("/adder offers /ad")
-    + "Is /ad a typing slip? Did you mean /add?",
+    + "Is /ad a typo? Did you mean /add?",
     (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format(
         "/robot1/adder offers /robot1/add"
     )
@@ -40,7 +40,7 @@ SERVICE_CAUSES = {
         misfits.MisspeltAction,
         goals.asks_nobody,
     ): "/client calls /fibonacci, /server offers /fibonaci: two different "
-    "actions. Is /fibonaci a typing slip? Did you mean /fibonacci?",
+    "actions. Is /fibonaci a typo? Did you mean /fibonacci?",
     (services.until_future_complete,): f"/customer has a client for the service /add{IN_VAIN}",
     (services.nobody_answers,): f"/customer has a client for the service /add{IN_VAIN}",
     (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
@@ -95,11 +95,11 @@ SERVICE_CAUSES = {
     (
         actions.Server,
         actions.Impatient,
-    ): "/client asked at 1.5 s to cancel its goal, and /server heard it only at 3 s: " + THREADS,
+    ): "/client asked at 1.5 s to cancel its goal, and /server received it only at 3 s: " + THREADS,
     (
         goals.Busy,
         actions.Impatient,
-    ): f"/client asked at 1.5 s to cancel its goal, and /server never heard it: {THREADS}",
+    ): f"/client asked at 1.5 s to cancel its goal, and /server never received it: {THREADS}",
     (goals.parallel(goals.IgnoresCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
     f"/fibonacci, and went on until it succeeded at 3 s. {LOOK}",
     (
@@ -126,5 +126,5 @@ SERVICE_CAUSES = {
         services.SlowAdder,
         misfits.NobodyHears,
     ): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
-    "took it: `call_async(request).add_done_callback(self.hear)` names the method that hears it.",
+    "took it: `call_async(request).add_done_callback(self.hear)` names the method that receives it.",
 }

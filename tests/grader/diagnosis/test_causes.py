@@ -16,7 +16,7 @@ from tests.students.services import parameters
 SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
 CAUSES = {
     (misfits.MisspeltTopic, misfits.Listener): SLIP.format("/chater")
-    + "Is /chater a typing slip? Did you mean /chatter?",
+    + "Is /chater a typo? Did you mean /chatter?",
     (misfits.CapitalTopic, misfits.Listener): SLIP.format("/Chatter")
     + "Capital letters count: write /chatter.",
     (misfits.TopicInNamespace, misfits.Listener): SLIP.format("/robot1/chatter")
@@ -148,9 +148,9 @@ def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):
 
 def test_the_name_that_isnt_ours_is_the_misspelt_one():
     misspelt = run(misfits.MisspeltTopic, companions=[misfits.Listener], quiet=True)
-    assert explain(misspelt).endswith("Is /chater a typing slip? Did you mean /chatter?")
+    assert explain(misspelt).endswith("Is /chater a typo? Did you mean /chatter?")
     misheard = run(misfits.Listener, companions=[misfits.MisspeltTopic], quiet=True)
-    assert explain(misheard).endswith("Is /chatter a typing slip? Did you mean /chater?")
+    assert explain(misheard).endswith("Is /chatter a typo? Did you mean /chater?")
     called = run(services.done_callback, companions=[service_misfits.MisspeltService], quiet=True)
     assert explain(called).endswith("Did you mean /ad?")
 

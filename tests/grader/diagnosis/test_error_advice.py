@@ -74,7 +74,7 @@ ADVICE = {
     mistakes.ForgottenImport: "`Imu` is not imported: write `from sensor_msgs.msg import Imu` at the top.",
     mistakes.MisspeltType: "Python knows no `Strng`. Did you mean `String`? It comes with "
     "`from std_msgs.msg import String`.",
-    mistakes.ForgottenSelf: "Python knows no `count` here: a typing slip, a missing import, or a value of the node's "
+    mistakes.ForgottenSelf: "Python knows no `count` here: a typo, a missing import, or a value of the node's "
     "own, which is `self.count`.",
     mistakes.ForgottenModule: "Python finds no module `std_msg`: check its spelling. Message packages end in `_msgs` "
     "and `.msg`, as in `from std_msgs.msg import String`.",

@@ -28,7 +28,7 @@ SENTENCES = {
         flaws.Chatter,
         flaws.SleepsOverMessages,
     ): "/sleeper took 9 of 50 messages: SleepsOverMessages.hear held it for "
-    "up to 0.5 s each time, and the next ones came meanwhile. A callback should keep what it hears, and return.",
+    "up to 0.5 s each time, and the next ones came meanwhile. A callback should store the message, and return.",
     (
         flaws.TalksWithoutAPause,
     ): "A loop without a pause keeps a whole core of the processor busy from 0 s on: thread "

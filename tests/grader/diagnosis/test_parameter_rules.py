@@ -24,7 +24,7 @@ ADVICE = {
     "launches_an_object": "The class itself is handed over, without brackets after its name: Wheel, not Wheel().",
     "launches_with_a_keyword": "A Process takes parameters as a dictionary, names and values: `Process(NodeClass, parameters={'radius': ...})`.",
     "launches_with_text": "A dictionary is wanted there, names and values, and a str came: write `{'name': value}`.",
-    "LooksUpAWordThatIsNotThere": "The dictionary has no 'square': is it a typing slip? Where it comes from outside, refuse what is not in the dictionary: `if value not in dictionary:`.",
+    "LooksUpAWordThatIsNotThere": "The dictionary has no 'square': is it a typo? Where it comes from outside, refuse what is not in the dictionary: `if value not in dictionary:`.",
     "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `await` it first, or take `future.result().sum` in its done callback.",
 }
 

@@ -89,7 +89,7 @@ def test_too_many_too_large_and_too_deep_are_refused(tmp_path):
     write(tmp_path / "large", "a", size=10_000_000)
     write(tmp_path / "heavy", "a", "b", "c", size=999)
     write(tmp_path / "deep", "a/b/c/d")
-    assert refusal(tmp_path / "many") == "ws/src has more than 3 files. Leave out what nobody needs."
+    assert refusal(tmp_path / "many") == "ws/src has more than 3 files. Leave out what isn't needed."
     assert refusal(tmp_path / "large") == "`ws/src/a` has more than 1 kB. Leave out what is no source."
     assert refusal(tmp_path / "heavy") == "ws/src has more than 0.002 MB. Leave out what is no source."
     assert refusal(tmp_path / "deep") == "`ws/src/a/b/c` lies deeper than 2 folders. Move it up."

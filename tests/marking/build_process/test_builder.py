@@ -89,7 +89,7 @@ def test_links_and_floods_in_what_is_installed_are_refused(builders):
     )
     many = with_setup(builders, late.format(flood))
     assert many.problem == (
-        "What was installed can't be taken. install has more than 400 files. Leave out what nobody needs."
+        "What was installed can't be taken. install has more than 400 files. Leave out what isn't needed."
     )
 
 

@@ -137,7 +137,7 @@ def test_a_page_gets_the_same_in_whole_pixels():
     data = graph_data(recording)
     assert data["words"] == plot_graph(recording).description
     assert data["reasons"] == [
-        "/b waits in vain: nobody publishes on /newz, and /a has /news. Is /news a typing slip? "
+        "/b waits in vain: nobody publishes on /newz, and /a has /news. Is /news a typo? "
         "Did you mean /newz?"
     ]
     kinds = [(box["kind"], *box["lines"]) for box in data["boxes"]]

@@ -107,7 +107,7 @@ def test_a_speed_is_reached_with_the_27th_command():
     assert missed("gets_there", STEADY, [0.19] * 27 + [0.2] * 13) == (
         "linear.x 0.2 m/s at 1.35 s, for 0.2",
         "0.19",
-        "Add the step again and again, until the wish is reached, or the limit.",
+        "Add the step again and again, up to the request or the limit.",
     )
 
 
@@ -152,7 +152,7 @@ def test_the_limits_hold_but_for_rounding():
     for sign in (1.0, -1.0):
         rounded = ending(right, (sign * 0.3000005, sign * 1.0000005))
         assert passes("keeps_the_limits", ending(fast, (0.0, 0.0)), rounded)
-    hint = "Cut the wish first"
+    hint = "Clip the wish first"
     end = (0.3005, 1.0)
     expected = "linear.x up to 0.3 m/s", "0.3 m/s at 2 s", hint
     assert missed("keeps_the_limits", fast, ending(right, end)) == expected
