@@ -1,8 +1,8 @@
 """JupyterLab on a hub: what a student's server has on top of the configuration of `make lab`."""
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
-# nbgrader's list of assignments: to hand in and to fetch feedback.
-c.ServerApp.jpserver_extensions = {"nbgrader.server_extensions.assignment_list": True}
+# nbgrader's list of assignments: to submit and to fetch feedback. The extensions of `make lab` stay.
+c.ServerApp.jpserver_extensions.update({"nbgrader.server_extensions.assignment_list": True})
 # Of a kernel that listens on a port, other users of the machine could read the outputs.
 c.KernelManager.transport = "ipc"
 # A hub that stops asks no questions.

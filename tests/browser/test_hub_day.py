@@ -57,8 +57,7 @@ class Student(Visitor):
     def arrive(self) -> None:
         """Log in, and see the map of the course."""
         self.log_in("/hub/")
-        self.page.wait_for_url("**/lab/tree/course/start.ipynb**")
-        self.page.locator(".jp-NotebookPanel").first.wait_for()
+        self.page.locator("#ros2-course-start a").first.wait_for()
         self.photograph("start")
 
     def answer(self, answers: dict[str, str]) -> None:
@@ -70,7 +69,7 @@ class Student(Visitor):
         for text, replacement in answers.items():
             self._replace(text, replacement)
         self.page.keyboard.press("Control+s")
-        self.page.locator(".jp-Notebook.jp-mod-dirty").wait_for(state="detached")
+        self.page.locator(".lm-TabBar-tab.jp-mod-dirty").wait_for(state="detached")
 
     def _replace(self, text: str, replacement: str) -> None:
         """Find a cell by its first line, as a reader does: by scrolling."""

@@ -1,4 +1,6 @@
 """What a hub installs for students, and what it never does."""
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -54,3 +56,18 @@ print([each.__name__ for each in lists], factory.Collect(coursedir=course.direct
 def test_the_lock_has_what_pyproject_names():
     lock = Path(ROOT, ".ci", "hub.lock").read_text()
     assert "\njupyterhub==" in lock and "\njupyterhub-idle-culler==" in lock
+
+
+def test_a_student_s_server_has_the_extensions_of_make_lab_and_the_list_of_assignments(tmp_path):
+    code = """
+from jupyter_server.serverapp import ServerApp
+app = ServerApp()
+app.load_config_file()
+print(sorted(name for name, enabled in app.jpserver_extensions.items() if enabled))
+"""
+    jupyter = shutil.copytree(ROOT / "jupyter", tmp_path / "course" / "jupyter")
+    places = {"JUPYTER_CONFIG_PATH": f"{jupyter / 'hub'}{os.pathsep}{jupyter}", "HOME": str(tmp_path)}
+    places = os.environ | places | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=places, text=True, capture_output=True)
+    shown = "['lab_addresses', 'nbgrader.server_extensions.assignment_list', 'start_page']"
+    assert done.stdout.splitlines()[-1] == shown

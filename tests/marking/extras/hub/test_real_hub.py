@@ -174,3 +174,20 @@ def test_processes_end_at_the_limit_and_others_start_theirs(hub, students):
     )
     assert told["text"] == "BlockingIOError True\n"
     kernel.stop()
+
+
+BUSY = r"""
+import resource, subprocess, sys, time
+spin = "import time; end = time.monotonic() + 4\nwhile time.monotonic() < end: pass"
+begin = time.monotonic()
+for each in [subprocess.Popen([sys.executable, "-c", spin]) for _ in range(3)]: each.wait()
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print((used.ru_utime + used.ru_stime) / (time.monotonic() - begin))
+"""
+
+
+def test_computing_time_ends_at_the_limit(hub, students):
+    kernel = students[CAROL].start_kernel(NOTEBOOK)
+    cores = float(kernel.run(BUSY)["text"])
+    kernel.stop()
+    assert cores < 1.1 * LIMITS.cpus
