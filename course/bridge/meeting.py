@@ -6,6 +6,7 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -67,8 +68,9 @@ def discovery_server() -> Iterator[str]:
     folder = Path(sysconfig.get_path("platlib"))
     libraries = f"{sys.prefix}/lib{os.pathsep}{folder / 'ros_fastrtps.libs'}"
     address, port = SERVER.split(":")
+    program = shutil.which("fast-discovery-server", path=f"{sys.prefix}/bin{os.pathsep}{os.environ['PATH']}")
     server = subprocess.Popen(
-        [Path(sys.prefix, "bin", "fast-discovery-server"), "-i", "0", "-l", address, "-p", port],
+        [program, "-i", "0", "-l", address, "-p", port],
         env=environment(LD_LIBRARY_PATH=libraries),
         stdout=subprocess.PIPE,
         text=True,
