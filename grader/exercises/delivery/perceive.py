@@ -7,6 +7,7 @@ import numpy as np
 
 from grader.checks import Missed, publishes
 from grader.checks.no_data import no_data
+from grader.checks.people import near_something
 from grader.checks.topics import longest_pause
 from grader.companions.blind_drivers import turner
 from grader.exercise import Exercise
@@ -97,6 +98,7 @@ def finds_what_stands(run: Recording) -> None:
         if mapped:
             saw = f"{_text(mapped[0])} at {row.stamp:.3g} s, which is on the map"
             raise Missed("points that the map doesn't explain", saw, hint)
+        near_something(run, row.stamp, OBSTACLES, points)
 
 
 @perceive.check(5, after=knows_its_place)
@@ -123,6 +125,8 @@ def finds_who_walks(run: Recording) -> None:
         turned = _begins_at_base_link(run, row)
         _require_person(run, row, "a person who walks", FROM_THE_MIDDLE if turned else hint)
     _require_three(run, seen, "a person who walks")
+    for row in rows:
+        near_something(run, row.stamp, PEOPLE, _points(row))
 
 
 @perceive.check(4, after=finds_who_walks)

@@ -13,7 +13,8 @@ from sim.ros.remote import Wire, WireError
 ENTRY = "grader.marking.build_process.builder:main"
 PRELOAD = ("grader.marking.build_process.builder",)
 LIMITS = ResourceLimits(
-    memory_mb=1500, cpu_s=60, wall_s=SECONDS + 30, file_mb=16, threads=64, scratch_files=2048, programs=True
+    memory_mb=1500, cpu_s=60, wall_s=SECONDS + 30, file_mb=16, threads=64, scratch_files=2048, programs=True,
+    idle_s=30,
 )
 
 

@@ -1,12 +1,13 @@
 """What a confined process may use, and how one ended."""
 
+import math
 import resource
 from dataclasses import dataclass
 
 MB = 1024 * 1024
 
-# exited: by itself. killed: from outside. crashed: by a signal. memory, cpu, time, threads: it met a limit.
-KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "threads")
+# exited: by itself. killed: from outside. crashed: by a signal. The others: it met a limit.
+KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "idle", "threads")
 
 
 @dataclass(frozen=True)
@@ -14,6 +15,7 @@ class ResourceLimits:
     """The most that one confined process may use. MB are 1024 * 1024 bytes.
 
     programs: it may start programs; CPU time, threads and memory are then limited for all of them together.
+    idle_s: for how long these may compute nothing, however busy the machine is.
     """
 
     memory_mb: int = 2000  # of address space, of which an idle confined process has about 500
@@ -25,6 +27,7 @@ class ResourceLimits:
     threads: int = 256
     open_files: int = 256
     programs: bool = False
+    idle_s: float = math.inf
 
 
 USUAL = ResourceLimits()

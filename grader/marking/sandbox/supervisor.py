@@ -16,10 +16,11 @@ from typing import IO, Any, NoReturn
 
 from grader.marking.sandbox import confinement, linux, mounts
 from grader.marking.sandbox.confinement import Confinement
-from grader.marking.sandbox.process_tree import tree_usage
+from grader.marking.sandbox.process_tree import TreeUsage, tree_usage
 from grader.marking.sandbox.resource_limits import MB, ProcessEnd, ResourceLimits
 
 WATCH_S = 0.25  # between two checks of a confined process
+IDLE_CPU_S = 0.1  # of computing: with less, it has done nothing
 CORES = 1.1  # that it may use over a longer time: with hundreds of threads it would have the whole machine
 STDERR_BYTES = 4000  # of stderr that are reported
 OUT_OF_MEMORY = 70  # the exit status of a confined process after an uncaught MemoryError
@@ -88,7 +89,11 @@ def _watch(process: int, pidfd: int, processes: int, limits: ResourceLimits) -> 
     since, before = time.monotonic(), 0.0
     while not poll.poll(1000 * WATCH_S):
         if limits.programs:
-            if reason := _tree_exceeded(process, processes, deadline, limits):
+            usage = tree_usage(process, processes)
+            if abs(usage.cpu_s - before) > IDLE_CPU_S:
+                since, before = time.monotonic(), usage.cpu_s
+            idle = "idle" if time.monotonic() - since > limits.idle_s else ""
+            if reason := _tree_exceeded(usage, deadline, limits) or idle:
                 os.kill(process, signal.SIGKILL)  # and with it all processes in its namespace
                 return reason
             continue
@@ -115,9 +120,8 @@ def _exceeded(cpu_s: float, threads: int, deadline: float, limits: ResourceLimit
     return "time" if time.monotonic() > deadline else ""
 
 
-def _tree_exceeded(process: int, processes: int, deadline: float, limits: ResourceLimits) -> str:
+def _tree_exceeded(used: TreeUsage, deadline: float, limits: ResourceLimits) -> str:
     """The same for a process with all its descendants."""
-    used = tree_usage(process, processes)
     if used.memory_mb > limits.memory_mb:
         return "memory"
     return _exceeded(used.cpu_s, used.threads, deadline, limits)
@@ -191,6 +195,7 @@ def describe(
         "crashed": f"The process crashed: {signal.strsignal(-code) if code < 0 else ''}.",
         "memory": f"The process needed more than the {limits.memory_mb} MB of memory that are allowed.",
         "cpu": f"The process computed for more than the {limits.cpu_s} s that are allowed.",
+        "idle": f"The process did nothing for more than the {limits.idle_s:g} s that are allowed.",
         "time": f"The process ran for more than the {limits.wall_s:g} s that are allowed.",
         "threads": f"The process had more than the {limits.threads} threads that are allowed.",
     }

@@ -203,6 +203,20 @@ def test_waiting_without_end_is_stopped(tight):
     assert ending.detail == "The process ran for more than the 0.1 s that are allowed."
 
 
+def test_programs_that_do_nothing_for_long_are_stopped(tight):
+    commanded = tight(programs=True, idle_s=1.0)
+    commanded.tell("import subprocess; subprocess.run(['sleep', '100000'])")
+    ending = commanded.ending()
+    assert ending.kind == "idle"
+    assert ending.detail == "The process did nothing for more than the 1 s that are allowed."
+
+
+def test_programs_that_compute_are_not_idle(tight):
+    commanded = tight(programs=True, idle_s=2.0, cpu_s=4)
+    commanded.tell("while True: pass")
+    assert commanded.ending().kind == "cpu"
+
+
 def test_limits_cannot_be_raised(commanded):
     raised = "import resource; resource.setrlimit(resource.RLIMIT_{0}, (resource.RLIM_INFINITY,) * 2)"
     for name in ("AS", "FSIZE", "NOFILE", "NPROC"):

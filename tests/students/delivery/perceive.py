@@ -210,3 +210,30 @@ class MapTooLate(Perception):
     """Subscribes to the map as to any other topic."""
 
     map_profile = 10
+
+
+class ObstaclesEverywhere(Perception):
+    """Every free place of the map is an obstacle."""
+
+    def strange(self, points):
+        grid, rows = self.floor, self.floor.known[::4, ::4]
+        free = [
+            (grid.left + 4 * column * grid.info.resolution, grid.bottom + 4 * row * grid.info.resolution)
+            for row, cells in enumerate(rows) for column, near in enumerate(cells) if not near
+        ]  # fmt: skip
+        return [*super().strange(points), *free]
+
+    def moved(self, now, strange):
+        return super().moved(now, [])
+
+
+class PeopleEverywhere(Perception):
+    """A person may be anywhere around the robot."""
+
+    def tell(self, stamp, robot, strange):
+        self.robot = robot
+        super().tell(stamp, robot, strange)
+
+    def people(self):
+        steps = [0.5 * step for step in range(-7, 8)]
+        return [(self.robot[0] + dx, self.robot[1] + dy) for dx in steps for dy in steps]
