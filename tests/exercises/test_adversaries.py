@@ -10,6 +10,7 @@ from tests.exercises.adversaries import KINDS, adversary
 from tests.exercises.assignment import Assignment, is_long
 from tests.exercises.at_times import spun_until
 from tests.exercises.chance import BY_LOT, card_of, earned, for_being_there
+from tests.exercises.more_adversaries import LISTENS_ONCE, MORE_KINDS, more_adversary
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
 from tests.exercises.test_control import TestControl as Control
@@ -30,9 +31,22 @@ ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Joints, Frames, Control, Packages, Safety, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
+EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),
+             ("chatters", "publishes everywhere")}  # fmt: skip
 ALL_KINDS = (*KINDS, "ends early")
 LUCK, NOTHING = 0.25, 0.3  # of the points that are left, and of all
 EARLY, AT_ONCE = 0.3, 0.1  # of the time; where a program may end when it is done, it has to end sooner
+# What is right without a stream of messages, or is in the task's text; the other points are beyond chance.
+RIGHT_ANYWAY = {
+    ("costmap", LISTENS_ONCE): 11,  # the map comes once; the clicks are a check of their own
+    ("calibrate", LISTENS_ONCE): 7,  # with too few readings a refusal is right
+    ("modes", LISTENS_ONCE): 7.5,  # modes and arming are services
+    ("ticks", LISTENS_ONCE): 8,  # a timer asks, and answers go on
+    ("trajectory", LISTENS_ONCE): 20,  # the place of the arm at the beginning is enough
+    ("customer", "asks everything"): 12,  # the goal is in the task's text, and with it its result
+    ("courier", "asks everything"): 6,  # the same
+    ("careful", "asks everything"): 6,  # what is wanted is passed on, and more
+}
 DONE_AT_ONCE = 3  # s: a program that may end in a run this short is done before it could end early
 
 
@@ -83,6 +97,26 @@ def test_who_knows_only_the_card_gets_what_is_given_for_being_there(assignment, 
     assert score <= there + (LUCK * (exercise.points - there) if kind == BY_LOT else 0), score.text
     if kind == "does nothing" and not exercise.names_count:
         assert score <= NOTHING * exercise.points, score.text
+
+
+MORE = [
+    pytest.param(assignment, name, kind, id=f"{assignment.topic()}-{name}-{kind.replace(' ', '_')}",
+                 marks=[] if (name, kind) in EVERY_DAY else [pytest.mark.soak])
+    for assignment, name in ALL
+    for kind in (*MORE_KINDS, LISTENS_ONCE)
+    if assignment.judge(name).varies and not assignment.judge(name).package
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("assignment", "name", "kind"), MORE)
+def test_who_publishes_or_asks_everything_or_listens_once_gets_no_more_than_chance(assignment, name, kind):
+    exercise = assignment.judge(name)
+    program = more_adversary(kind, assignment.topic(), name)
+    if program is None:
+        return  # its right answers have no stream of messages, or are whole programs
+    there, score = for_being_there(exercise), earned(exercise, kind, program)
+    chance = there + LUCK * (exercise.points - there)
+    assert score <= max(chance, RIGHT_ANYWAY.get((exercise.name, kind), 0)), score.text
 
 
 @pytest.mark.parametrize(("assignment", "name", "kind"), rows(["ends early"]))

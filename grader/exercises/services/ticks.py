@@ -8,6 +8,7 @@ from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import Call, Recording
 
+MOST = 1.5  # questions a second, and messages for each answer: more are guesses
 ADD, TOTAL = "/add_two_ints", "/ticks/total"
 GROUPS = ("While look waits for an answer, or awaits it, nothing else of its callback group runs. Give its "
           "timer and the client a group of their own, a ReentrantCallbackGroup; or use a done callback.")
@@ -21,7 +22,7 @@ def calls_every_second(run: Recording) -> list[Call]:
     """Once a second the node asks /add_two_ints."""
     made = has_client(run, ADD, "example_interfaces/srv/AddTwoInts")
     due = int(run.seconds) - 1
-    if len(made) < 0.8 * due:
+    if not 0.8 * due <= len(made) <= MOST * run.seconds:
         hint = "Let a timer with a period of 1 s call look, and ask there: self.client.call_async(request)."
         raise Missed(f"{due} questions in {run.seconds:g} s", f"{len(made)}", hint)
     return made
@@ -41,6 +42,10 @@ def publishes_the_totals(run: Recording, made: list[Call]) -> None:
             saw = f"{', '.join(map(str, sums)) or 'no message'} in the 0.2 s after it"
             guess = "Publish the sum of the answer itself, once it is there: answer.sum."
             raise Missed(f"{total} on {TOTAL}, the answer of {call.answered:.3g} s", saw, guess=guess)
+    count, answered = len(run.messages(TOTAL)), sum(call.answered is not None for call in made)
+    if count > MOST * answered:
+        hint = "Publish one sum for each answer, that of the answer."
+        raise Missed(f"one message for each of {answered} answers", f"{count} on {TOTAL}", hint)
 
 
 @ticks.check(2, after=calls_every_second)

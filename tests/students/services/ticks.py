@@ -246,3 +246,17 @@ def main_that_logs_that_it_waits(args=None):
     while not node.client.wait_for_service(timeout_sec=1.0):
         node.get_logger().info("Waiting for /add_two_ints")
     rclpy.spin(node)
+
+
+class AsksAllTheTime(WithDoneCallback):
+    """Five times a second: one of the questions is right."""
+
+    period = 0.2
+
+
+class PublishesEverySum(WithDoneCallback):
+    """Whatever the sum may be: the right one is among them."""
+
+    def say(self, answer):
+        for sum_ in range(answer.sum - 2, answer.sum + 3):
+            self.publisher.publish(Int64(data=sum_))
