@@ -25,7 +25,7 @@ export class RobotSidebar {
     this.widget.title.icon = new lab.LabIcon({ name: "ros2-course:robot", svgstr: ICON });
     app.shell.add(this.widget, "right", { rank: 50 });
     tracker.currentChanged.connect(() => this.follow());
-    let before = app.shell.node.clientWidth;
+    let before = Infinity; // px; the window has no width yet
     window.addEventListener("resize", () => {
       const width = app.shell.node.clientWidth;
       if (width < NARROW && width < before && this.opened && this.widget.isVisible) this.widen(true);
