@@ -146,7 +146,7 @@ def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
     there = {path.relative_to(work).as_posix(): path.read_bytes() for path in work.rglob("[!.]*.*")}
     here |= {path.name: path.read_bytes() for path in assistant_files(ROOT)}
     assert there == {name: content for name, content in here.items() if name != "course/README.md"}
-    assert opened.LabApp.default_url.removeprefix("/lab/tree/") in there
+    assert (opened.LabApp.default_url, "course/start.ipynb" in there) == ("/lab", True)
 
 
 def test_a_terminal_of_jupyterlab_there_finds_the_commands_of_the_course(folder, tmp_path, monkeypatch):
