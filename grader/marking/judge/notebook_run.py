@@ -24,8 +24,8 @@ from grader.marking.submission.quoting import quote
 EMPTY_CELL = "pass"  # in place of a cell that is skipped, so that the others keep their numbers
 MAX_RESTARTS = 3
 NOT_RUN_BELOW = "The cells below were not run."
-RESTARTED = "It was started again behind this cell, and the cells below were run."
-USED_UP = "Your program had used up the {}: the notebook was started again behind this cell."
+RESTARTED = "It was started again after this cell, and the cells below were run."
+USED_UP = "Your program had used up the {}: the notebook was started again after this cell."
 NOT_RUN = "Not run for marking, where the tests look at what your nodes do."
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
 

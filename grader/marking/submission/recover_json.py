@@ -110,11 +110,11 @@ def _cells_before(
     if not cells:
         raise Unusable(f"{quote(file)} is damaged from its beginning on; expected a notebook. {AGAIN}")
     for before in left_out:
-        where = f"behind cell {before}" if before else "in its first cell"
+        where = f"after cell {before}" if before else "in its first cell"
         repairs.append(f"The notebook's file is damaged {where}; the next cell that can be read was marked.")
     if text[position : position + 1] != "]" or not left_out:
         repairs.append(
-            f"The notebook's file is damaged behind cell {len(cells)}; what stands before was marked."
+            f"The notebook's file is damaged after cell {len(cells)}; the cells before that were marked."
         )
     return cells
 

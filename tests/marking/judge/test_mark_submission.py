@@ -122,7 +122,7 @@ def test_a_process_that_ends_is_started_again_behind_the_cell(marked):
     assert result.reason == f"{reason}It was started again."
     assert text(result, "temperature") == (
         "bye\nThe notebook stopped here. The process ended by itself. "
-        "It was started again behind this cell, and the cells below were run.\n"
+        "It was started again after this cell, and the cells below were run.\n"
     )
     shown = text(result, "temperature-points")
     assert shown == "No points: this cell ended before the nodes could be run.\n"
@@ -144,7 +144,7 @@ def test_what_one_exercise_has_used_up_is_there_for_the_next(marked, what):
     greedy = GREETER.replace('lambda: self.publisher.publish(String(data="Hello!"))', "self.use_up")
     result = marked(greeting=f"kept = []\n{greedy}{use_up}")
     assert points(result)["temperature-points"] == 15
-    words = f"Your program had used up the {what}: the notebook was started again behind this cell.\n"
+    words = f"Your program had used up the {what}: the notebook was started again after this cell.\n"
     assert text(result, "greeting-points").endswith(words)
     assert result.flags == [
         f"The test cell `greeting-points`: its nodes used up the {what}, so the notebook was started again."

@@ -101,7 +101,7 @@ REPAIRED = {
     ),
     "cut off in its metadata": (
         WHOLE[: WHOLE.rindex(b'"language_info"')],
-        "The notebook's file is damaged behind cell 39; what stands before was marked.",
+        "The notebook's file is damaged after cell 39; the cells before that were marked.",
     ),
 }
 
@@ -198,7 +198,7 @@ def test_a_file_that_breaks_off_is_marked_as_far_as_it_goes():
     result = rebuild(STARTER, read_notebook(cut, "nodes.ipynb"))
     assert [name for name, state in result.answers.items() if state == "answered"] == ["hello", "counter"]
     assert result.repairs == [
-        "The notebook's file is damaged behind cell 12; what stands before was marked.",
+        "The notebook's file is damaged after cell 12; the cells before that were marked.",
         "The answers `battery`, `heart`, `main`, `weather-module` and `weather-node` were missing; "
         "empty cells took their places.",
         "The test cells `counter-points`, `battery-points`, `heart-points`, `main-points` and "
@@ -218,7 +218,7 @@ def test_one_wrong_byte_costs_one_cell(old, new, number):
     notebook = read_notebook(content, "nodes.ipynb")
     whole = [cell.text for cell in read_notebook(WHOLE, "nodes.ipynb").cells]
     assert [cell.text for cell in notebook.cells] == whole[:number] + whole[number + 1 :]
-    where = f"behind cell {number}" if number else "in its first cell"
+    where = f"after cell {number}" if number else "in its first cell"
     words = f"The notebook's file is damaged {where}; the next cell that can be read was marked."
     assert notebook.repairs == [words]
 
