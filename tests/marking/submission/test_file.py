@@ -227,7 +227,7 @@ def test_what_is_damaged_in_many_places_is_marked_as_far_as_it_goes():
     content = WHOLE.replace(b'"cell_type": "code"', b'"cell_type" "code"')
     notebook = read_notebook(content, "nodes.ipynb")
     assert len(notebook.repairs) == 11
-    assert notebook.repairs[-1].endswith("what stands before was marked.")
+    assert notebook.repairs[-1].endswith("the cells before that were marked.")
 
 
 def test_a_file_that_is_not_utf_8_is_read_as_latin_1():
