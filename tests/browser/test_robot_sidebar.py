@@ -60,11 +60,12 @@ def test_the_whole_picture_is_in_sight_at_every_size(playing, size, request):
 
 
 def test_the_picture_and_the_notebook_stay_in_sight_when_the_window_becomes_small(playing):
+    notebook = playing.page.locator(SHOWN)
     for width, height in ((900, 700), (720, 450)):
         playing.page.set_viewport_size({"width": width, "height": height})
         live(playing).wait_for_time(live(playing).time() + 0.3)
         until(lambda: is_whole(playing), "the whole picture")
-        assert playing.page.locator(SHOWN).bounding_box()["width"] > 200
+        until(lambda: notebook.bounding_box()["width"] > 200, "a notebook that is wide enough")
 
 
 def test_the_values_of_a_replay_are_next_to_their_labels(playing):

@@ -49,7 +49,7 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
         "the benchmarks are scenario, startup, world, machines, transforms, repeats, orders, digests, "
-        "grading, sandbox, marking, pace, view, peers, navigator, capstone.\n"
+        "grading, sandbox, marking, pace, view, peers, navigator, capstone, hub.\n"
     )
 
 

@@ -28,7 +28,8 @@ export class RobotSidebar {
     let before = Infinity; // px; the window has no width yet
     window.addEventListener("resize", () => {
       const width = app.shell.node.clientWidth;
-      if (width < NARROW && width < before && this.opened && this.widget.isVisible) this.widen(true);
+      const smaller = width < NARROW && width < before && this.opened && this.widget.isVisible;
+      if (smaller) requestAnimationFrame(() => this.widen(true)); // once JupyterLab has its new layout
       before = width;
     });
   }
@@ -62,7 +63,11 @@ export class RobotSidebar {
   widen(always = false) {
     const { shell } = this.app, split = shell._hsplitPanel; // JupyterLab has no public name for it
     const narrow = shell.node.clientWidth < NARROW;
-    if (narrow) shell.collapseLeft?.();
+    if (narrow && shell.leftCollapsed === false) { // its width counts until the next layout
+      shell.collapseLeft();
+      requestAnimationFrame(() => this.widen(true));
+      return;
+    }
     const share = narrow ? NARROW_SHARE : SHARE;
     const sizes = split?.relativeSizes() ?? [];
     const right = sizes.at(-1);
