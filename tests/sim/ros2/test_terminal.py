@@ -344,7 +344,8 @@ def test_ctrl_c_is_quiet_when_a_command_has_ended():
 
 
 def test_ctrl_c_is_quiet_while_a_command_echoes(system):
-    process = start([*ROS2, "topic", "echo", "/place"], system)
+    # With the type, so that the command waits for the robot however late it finds it.
+    process = start([*ROS2, "topic", "echo", "/place", "geometry_msgs/msg/PointStamped"], system)
     line = next(line for line in iter(process.stdout.readline, "") if not NOT_YET.match(line))
     process.send_signal(signal.SIGINT)
     assert (line, process.communicate(timeout=PATIENCE)[1], process.returncode) == ("header:\n", "", 2)
