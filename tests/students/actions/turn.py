@@ -125,7 +125,7 @@ class SpinByOdometry(SpinServer):
 
 
 class SpinByTime(SpinServer):
-    """A design of its own: hears /odom, but turns by the clock: right where nothing slips."""
+    """A design of its own: subscribes to /odom, but turns by the clock: right where nothing slips."""
 
     async def execute(self, goal_handle):
         target, self.turned = goal_handle.request.target_yaw, 0.0

@@ -37,7 +37,7 @@ class Mux(Node):
 
 
 class PassesOn(Mux):
-    """A design of its own: without a timer: a command passes if nobody who counts more has spoken lately."""
+    """A design of its own: without a timer: it passes what no higher priority has blocked lately."""
 
     def hear(self, topic, msg):
         super().hear(topic, msg)
