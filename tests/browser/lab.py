@@ -2,7 +2,6 @@
 import json
 import os
 import shutil
-import socket
 import subprocess
 import sys
 import urllib.request
@@ -16,6 +15,7 @@ import nbformat
 from playwright.sync_api import Locator, Page
 
 from tests.patience import PATIENCE, until
+from tests.ports import free_port
 
 ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
@@ -115,9 +115,7 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
 
     more: options for its command line. settings: the folder with its configuration.
     """
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     address = f"http://127.0.0.1:{port}"
     # Tests write notebooks beside the course's; students see copies, in work/.
     root = f"--ServerApp.root_dir={folder}"

@@ -4,7 +4,6 @@ import os
 import pwd
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -28,6 +27,7 @@ from grader.marking.extras.hub.hub_settings import (
 from tests.marking.extras.hub.hub_client import HubClient
 from tests.marking.tiny import ROOT
 from tests.patience import PATIENCE
+from tests.ports import free_port
 
 COURSE = "hubtest"
 
@@ -61,13 +61,6 @@ class RealHub:
         return done.stdout
 
 
-def free_port() -> int:
-    """A port that is free now, and so are those after it, most likely."""
-    with socket.socket() as trial:
-        trial.bind(("127.0.0.1", 0))
-        return trial.getsockname()[1]
-
-
 @contextmanager
 def real_hub(students: int, limits: UserLimits | None = None) -> Iterator[RealHub]:
     """Install a hub with this many students and two teachers, and run it until the end of the block."""
@@ -76,7 +69,7 @@ def real_hub(students: int, limits: UserLimits | None = None) -> Iterator[RealHu
     place = Path(tempfile.mkdtemp(prefix="ros2-hub-settings-"))
     people = HubCourse(("hubtest-ines", "hubtest-tom"), tuple(f"hubtest-{number:02d}" for number in range(students)))
     settings = HubSettings(
-        ServerSettings(folder=str(folder), port=free_port()), limits or UserLimits(), {COURSE: people}
+        ServerSettings(folder=str(folder), port=free_port(4)), limits or UserLimits(), {COURSE: people}
     )
     (place / FILE).parent.mkdir()
     (place / FILE).write_text(_toml(settings))

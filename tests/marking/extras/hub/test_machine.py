@@ -24,6 +24,7 @@ def complete(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
     monkeypatch.setattr(machine, "PAM", Path("/"))
     monkeypatch.setattr(accounts, "problems", lambda settings: [])
     monkeypatch.setattr(user_limits, "missing_controllers", list)
+    monkeypatch.setattr(machine, "_used", lambda address, port: "")
     return monkeypatch
 
 
@@ -63,21 +64,21 @@ def test_without_pam_there_are_no_passwords(complete):
     ]
 
 
-def test_a_port_that_is_used_is_named(complete):
+def test_a_port_that_is_used_is_named(monkeypatch):
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]
         for first in (port, port - 1):
-            assert machine.missing(settings(port=first)) == [
+            assert (
                 f"port {port} of '127.0.0.1' can't be used (Address already in use): change server.port"
-            ]
+            ) in list(machine.missing(settings(port=first)))
 
 
-def test_the_last_ports_leave_no_room_for_the_others(complete):
-    assert machine.missing(settings(port=65_535))[0] == (
+def test_the_last_ports_leave_no_room_for_the_others():
+    assert (
         "port 65536 of '127.0.0.1' can't be used (there is no such port): change server.port"
-    )
+    ) in list(machine.missing(settings(port=65_535)))
 
 
 def test_passwords_cross_no_network_unencrypted(complete):
