@@ -19,7 +19,7 @@ FOLDER_IN_HOME = "ros2-course"
 SOURCES = ("course", "exercises")
 ASSISTANT_FILES = ("AGENTS.md", "TUTOR.md")  # of course/
 RECORD = ".given.json"  # path -> digest of the last copied version
-GENERATED = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws")
+GENERATED = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws", "predictions.json")
 
 
 def find_work_folder(course: Path) -> Path:

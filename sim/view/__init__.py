@@ -7,6 +7,7 @@ from sim.view.jitter_plot import plot_jitter
 from sim.view.map_plot import plot_map
 from sim.view.path_plot import plot_path
 from sim.view.plot import png, small_png
+from sim.view.prediction import predict
 from sim.view.replay import replay
 from sim.view.timeline_plots import plot_logs, plot_signal, plot_topics
 
@@ -21,6 +22,7 @@ __all__ = [
     "plot_signal",
     "plot_topics",
     "png",
+    "predict",
     "replay",
     "small_png",
 ]

@@ -14,12 +14,14 @@ _FILES = {
     "live.js": _PICTURE,
     "replay.js": (*_PICTURE, "cursor.js", "packed.js", "replay_run.js"),
     "plots.js": (*_BASE, "cursor.js", "packed.js"),
+    "prediction.js": ("elements.js",),
 }
 
 
 def script(part: str) -> str:
     """One file of web/, preceded by those that it uses and the style sheet as the constant `STYLE`."""
-    names = ("view.css", *_FILES[part], part)
+    sheet = "prediction.css" if part == "prediction.js" else "view.css"
+    names = (sheet, *_FILES[part], part)
     style, *texts = (_WEB.joinpath(name).read_text(encoding="utf-8") for name in names)
     return "\n".join([f"const STYLE = {json.dumps(style)};", *texts])
 

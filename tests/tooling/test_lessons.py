@@ -24,9 +24,9 @@ def cells(folder, name):
 
 
 def is_live(output):
-    """Whether this is a live picture; a slider is a widget, too, but nobody has to end it."""
+    """Whether this is a live picture; sliders and predictions are widgets, too, but need no end."""
     data = output.get("data", {})
-    return WIDGET in data and not data["text/plain"].startswith("interactive(")
+    return WIDGET in data and not data["text/plain"].startswith(("interactive(", "**Predict:**"))
 
 
 @pytest.mark.parametrize("lesson", RUNS)
