@@ -28,7 +28,7 @@ from sim import play
 player = play(world="room", seconds=1000)
 begin = player.recording.stamp
 await asyncio.sleep({PLAYED})
-print(player.recording.stamp - begin)
+print("", player.recording.stamp - begin)
 player.stop()
 """
 

@@ -59,14 +59,14 @@ def test_what_a_lesson_defines_can_be_taken_out_of_it(lesson):
 @BOTH
 def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
     found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, until=BLINKS)
-    assert found["ended"] == [0]
+    assert found["ended"] == [0], found["errors"]
     assert {line.split("]: ")[1] for line in found["errors"].splitlines()} == {"on", "off"}
 
 
 @BOTH
 def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
     found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
-    assert found["ended"] == [0]
+    assert found["ended"] == [0], found["errors"]
     assert found["heard"]["/cmd_vel"][-2:] == [0.3, 0.0]
     assert found["errors"] == ""
 
@@ -75,7 +75,7 @@ def test_the_server_of_lesson_4_drives(yard, tmp_path):
     before = told(yard, tmp_path / "nothing", "04_actions", [])["heard"]["/odom"][-1]
     until = f"'canceled after' in errors and max(heard['/odom']) > {before}"
     found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], until=until)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
     assert float(re.search(r"canceled after ([\d.]+) m", found["errors"])[1]) > 0
     assert max(found["heard"]["/odom"]) > before
 
@@ -92,7 +92,7 @@ def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
 def test_a_best_effort_publisher_is_heard_with_the_profile_for_sensors_only(yard, tmp_path, listener, hears):
     until = f"({'I heard: Hello' if hears else 'incompatible QoS'!r} in errors) and {A_WHILE}"
     found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
     assert ("I heard: Hello" in found["errors"]) == hears
     assert ("incompatible QoS" in found["errors"]) == (not hears)
 
@@ -106,7 +106,7 @@ def test_between_two_processes_a_wrong_type_is_silence(yard, tmp_path):
 @pytest.mark.soak
 def test_two_nodes_of_one_name_start_without_a_warning(yard, tmp_path):
     found = told(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], until=A_WHILE)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
     assert "WARN" not in found["errors"]
 
 
@@ -126,7 +126,7 @@ def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
 def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path, circler, words):
     radius = {circler: ["-p", "radius:=0.0"]}
     found = told(yard, tmp_path / "errors", "03_services", [circler], alone=True, **radius)
-    assert found["ended"] == [1]
+    assert found["ended"] == [1], found["errors"]
     assert words in found["errors"].splitlines()[-1]
 
 
@@ -134,7 +134,7 @@ def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path
 def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
     names, until = ["whole.main", "SpinServer", "Patrol"], "errors.count(': done') >= 4"
     found = told(yard, tmp_path / "errors", "04_actions", names, until=until)
-    assert found["ended"] == [0, 0, 0]
+    assert found["ended"] == [0, 0, 0], found["errors"]
     assert found["errors"].count(": done") == 4
 
 
@@ -152,7 +152,7 @@ def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_p
     until = f"max(heard['/cmd_vel']) == 0.4 and 'The joystick is late: stop' in errors and {STOPPED}"
     names = ["Driver", "Joystick"]
     found = told(yard, tmp_path / "errors", "07_silence", names, until=until, listen=COMMANDS)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
     assert max(found["heard"]["/cmd_vel"]) == 0.4
 
 
@@ -165,7 +165,7 @@ def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path)
         until += " and errors.count('Received joint position') >= 7"
         programs = [publisher, "JointSubscriber"]
         found = told(joint, tmp_path / "errors", "08_joints", programs, until=until, listen=listen)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
     assert found["heard"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
     assert found["errors"].count("]: Received joint position: ") == 7
     assert found["errors"].count("]: All positions are sent") == 1
@@ -177,14 +177,14 @@ def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
         listen = {"/joint_states": ("sensor_msgs/msg/JointState", "header.stamp.sec")}
         until = "']: The goal was reached.' in errors"
         found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, until=until)
-    assert found["ended"] == [0]
+    assert found["ended"] == [0], found["errors"]
 
 
 @pytest.mark.soak
 def test_the_follower_of_lesson_9_drives_after_its_carrot(yard, tmp_path):
     names, until = ["Carrot", "Follower"], "max(heard['/cmd_vel']) > 0.2"
     found = told(yard, tmp_path / "errors", "09_frames", names, until=until, listen=COMMANDS)
-    assert found["ended"] == [0, 0]
+    assert found["ended"] == [0, 0], found["errors"]
 
 
 @BOTH

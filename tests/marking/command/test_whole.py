@@ -2,6 +2,7 @@
 import csv
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -24,6 +25,8 @@ HIDDEN = (SECRET, "COURSE_SECRET", "site-packages", str(ROOT), "Traceback (most 
 def marked(tmp_path_factory):
     """A class with a right, a half right, an untouched and a broken submission, and what the command said."""
     course = copy_of_course(ROOT, tmp_path_factory.mktemp("course"))
+    for other in set((course / "solutions").iterdir()) - {course / "solutions" / "01_nodes"}:
+        shutil.rmtree(other)
     release(course)
     submit_samples(course, "01_nodes")
     broken = course / "class" / "submitted" / "zoe" / "01_nodes"
