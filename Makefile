@@ -60,7 +60,7 @@ hub: setup  ## a JupyterHub for a class, as class/hub.toml says (make hub ARGS=-
 bench: tools  ## print the benchmarks (make bench ARGS=scenario prints one)
 	$(BIN)/python -m tests.bench $(ARGS)
 
-tidy: tools  ## normalise the notebooks, sort imports
+tidy: tools  ## normalize the notebooks, sort imports
 	$(BIN)/python -m grader.notebook_format
 	$(BIN)/ruff check --fix
 

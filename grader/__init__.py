@@ -1,6 +1,6 @@
 """Judges what students' nodes do: exercises, checks and scores."""
 
-from grader.catalogue import grade
+from grader.catalog import grade
 from grader.checks.check import Missed, check
 from grader.course_map import course_map
 from grader.exercise import Exercise, Scenario

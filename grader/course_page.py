@@ -1,7 +1,7 @@
 """The course map as HTML: chapters, a card for each lesson, and the next notebook.
 
 It has no scripts and loads nothing. All that its pictures show is also there as text or as a label for screen
-readers; the links are in the order of the chapters. The style sheet is part of the page, and uses the colours
+readers; the links are in the order of the chapters. The style sheet is part of the page, and uses the colors
 of the page around it.
 """
 

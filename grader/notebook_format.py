@@ -1,8 +1,8 @@
-"""Normalises notebooks, so that git diffs show only the author's changes.
+"""Normalizes notebooks, so that git diffs show only the author's changes.
 
     python -m grader.notebook_format [--check] [notebook or folder ...]      default: course solutions
 
-A normalised notebook has no outputs, execution counts or widget state, only relevant metadata, and an id on
+A normalized notebook has no outputs, execution counts or widget state, only relevant metadata, and an id on
 every cell. Existing ids are kept, so inserting or moving a cell changes no other cell.
 """
 
@@ -30,8 +30,8 @@ class InvalidNotebook(ValueError):
     """A file that is not a valid notebook of format 4; the message has its name and the reason."""
 
 
-def normalised(text: str, name: str) -> str:
-    """Return the notebook `text` normalised; `name` is for errors. Raises InvalidNotebook."""
+def normalized(text: str, name: str) -> str:
+    """Return the notebook `text` normalized; `name` is for errors. Raises InvalidNotebook."""
     try:
         notebook = json.loads(text)
     except json.JSONDecodeError as error:
@@ -91,16 +91,16 @@ def find_notebooks(paths: Iterable[Path]) -> list[Path]:
     return sorted(path for path in found if ".ipynb_checkpoints" not in path.parts)
 
 
-def normalise(paths: Iterable[Path], check: bool = False) -> list[str]:
-    """Normalise the notebooks in `paths`, or with `check` only compare them.
+def normalize(paths: Iterable[Path], check: bool = False) -> list[str]:
+    """Normalize the notebooks in `paths`, or with `check` only compare them.
 
-    Returns one text per notebook that was not normalised: its name and the first lines that differ (- actual,
-    + normalised). Raises InvalidNotebook.
+    Returns one text per notebook that was not normalized: its name and the first lines that differ (- actual,
+    + normalized). Raises InvalidNotebook.
     """
     reports = []
     for path in find_notebooks(paths):
         before = path.read_text(encoding="utf-8")
-        after = normalised(before, str(path))
+        after = normalized(before, str(path))
         if before == after:
             continue
         reports.append("\n    ".join([str(path), *_difference(before, after)]))
@@ -125,12 +125,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if it should")
     chosen = parser.parse_args(arguments)
     try:
-        reports = normalise(chosen.paths or [folder for folder in FOLDERS if folder.exists()], chosen.check)
+        reports = normalize(chosen.paths or [folder for folder in FOLDERS if folder.exists()], chosen.check)
     except InvalidNotebook as error:
         print(error, file=sys.stderr)
         return 1
     for report in reports:
-        print(f"{'not normalised' if chosen.check else 'normalised'}: {report}")
+        print(f"{'not normalized' if chosen.check else 'normalized'}: {report}")
     if chosen.check and reports:
         print("Run `make tidy` and commit what it changes.")
     return 1 if chosen.check and reports else 0

@@ -1,7 +1,7 @@
 """Renders a score as HTML and as text.
 
 The HTML is one table with inline styles: no scripts, no classes, no URLs except of embedded pictures. Text
-has the page's colour, and each status its own background, so all is legible in light and dark themes. Equal
+has the page's color, and each status its own background, so all is legible in light and dark themes. Equal
 scores give equal bytes. A moment of a run that has a replay is a link, which moves the replay there; see
 sim/view/web/cursor.js.
 """
@@ -16,7 +16,7 @@ from types import MappingProxyType
 
 from grader.checks.verdicts import Verdict
 
-# Per status: symbol, word, and the colours of text and background: legible in light and dark themes, with a
+# Per status: symbol, word, and the colors of text and background: legible in light and dark themes, with a
 # contrast of 7 or more; on a white page also where a sanitizer removes the background.
 STATUS_STYLES = {
     "passed": ("✔", "passed", "#0b5a26", "#e3f4e8"),
@@ -116,7 +116,7 @@ def moments(verdict: Verdict) -> list[float]:
 
 
 def _row(verdict: Verdict, runs: Sequence[str], below: str, replay: str) -> str:
-    symbol, word, colour, background = STATUS_STYLES[status_key(verdict)]
+    symbol, word, color, background = STATUS_STYLES[status_key(verdict)]
     more = "".join(
         f"<div><b>{label}:</b> {_linked(_escape(content), replay)}</div>"
         for label, content in details(verdict, runs)
@@ -125,7 +125,7 @@ def _row(verdict: Verdict, runs: Sequence[str], below: str, replay: str) -> str:
     cell = "text-align: left; vertical-align: top"
     return (
         f'<tr><td style="{cell}; white-space: nowrap">'
-        f'<b style="color: {colour}; background-color: {background}; padding: 0 4px">{symbol} {word}</b></td>'
+        f'<b style="color: {color}; background-color: {background}; padding: 0 4px">{symbol} {word}</b></td>'
         f'<td style="{cell}; white-space: normal"><div><b>{_escape(verdict.sentence)}</b></div>{more}</td>'
         f'<td style="{cell}; white-space: nowrap">{_points(verdict)}</td></tr>'
     )

@@ -139,7 +139,7 @@ class Score(float):
         return page.html(*told, below=self._graph, replays=self._replays)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.
+        # Each picture is an output of its own: a sanitizer that is strict about HTML lets the table pass.
         with redirect_stderr():
             try:
                 _show(self.pictures)

@@ -12,7 +12,7 @@ import shutil
 from contextlib import suppress
 from pathlib import Path
 
-from grader.notebook_format import InvalidNotebook, normalised
+from grader.notebook_format import InvalidNotebook, normalized
 
 FOLDER = "work"
 FOLDER_IN_HOME = "ros2-course"
@@ -73,7 +73,7 @@ def content_digest(path: Path) -> str:
     content = path.read_bytes()
     if path.suffix == ".ipynb":
         with suppress(InvalidNotebook, UnicodeDecodeError):  # an invalid notebook: digest its bytes
-            content = normalised(content.decode("utf-8"), path.name).encode()
+            content = normalized(content.decode("utf-8"), path.name).encode()
     return hashlib.sha256(content).hexdigest()
 
 

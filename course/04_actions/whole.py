@@ -43,35 +43,35 @@ class DriveServer(Node):
 
     async def execute(self, goal_handle):
         """Drive until the distance is done, or until there is a reason to end early."""
-        goal, start, metres = goal_handle.request, self.position, 0.0
+        goal, start, meters = goal_handle.request, self.position, 0.0
         begin = self.get_clock().now()
-        while metres < goal.target.x:
+        while meters < goal.target.x:
             seconds = (self.get_clock().now() - begin).nanoseconds / 1e9
-            result = self.ends_early(goal_handle, metres, seconds)
+            result = self.ends_early(goal_handle, meters, seconds)
             if result is not None:
                 return result
             self.send(goal.speed)
             await self.pause(0.05)
-            metres = math.dist(start, self.position)
-            goal_handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=metres))
+            meters = math.dist(start, self.position)
+            goal_handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=meters))
         self.send(0.0)
         goal_handle.succeed()
         return DriveOnHeading.Result()
 
-    def ends_early(self, goal_handle, metres, seconds):
+    def ends_early(self, goal_handle, meters, seconds):
         """The result of a goal that has to end now; None if it may go on."""
         allowed = goal_handle.request.time_allowance.sec  # 0: as long as it takes
         if goal_handle is not self.current:  # the robot belongs to the newer goal: don't stop it
             goal_handle.abort()
-            return DriveOnHeading.Result(error_msg=f"replaced after {metres:.2f} m")
+            return DriveOnHeading.Result(error_msg=f"replaced after {meters:.2f} m")
         if goal_handle.is_cancel_requested:
             self.send(0.0)
             goal_handle.canceled()
-            return DriveOnHeading.Result(error_msg=f"canceled after {metres:.2f} m")
+            return DriveOnHeading.Result(error_msg=f"canceled after {meters:.2f} m")
         if seconds > allowed > 0:
             self.send(0.0)
             goal_handle.abort()
-            reason = f"only {metres:.2f} m in {allowed} s"
+            reason = f"only {meters:.2f} m in {allowed} s"
             return DriveOnHeading.Result(error_code=DriveOnHeading.Result.TIMEOUT, error_msg=reason)
         return None
 

@@ -38,7 +38,7 @@ class Bodyguard(Node):
     def __init__(self):
         super().__init__("bodyguard")
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.ahead = 0.0  # metres; nothing is known yet
+        self.ahead = 0.0  # meters; nothing is known yet
         self.create_subscription(LaserScan, "/scan", self.look, qos_profile_sensor_data)
         self.create_subscription(Twist, "/cmd_vel_raw", self.filter, 10)
 

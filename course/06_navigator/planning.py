@@ -40,7 +40,7 @@ def inflate(cells, reach):
     return inflated
 
 
-def neighbours(cells, cell):
+def neighbors(cells, cell):
     """The free cells around a cell, and how far they are, in cells."""
     column, row = cell
     for right, up in ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)):
@@ -64,7 +64,7 @@ def search(cells, start, goal):
         _, here = heapq.heappop(queue)
         if here == goal:
             break
-        for there, step in neighbours(cells, here):
+        for there, step in neighbors(cells, here):
             if cost[here] + step < cost.get(there, math.inf):
                 cost[there], came_from[there] = cost[here] + step, here
                 heapq.heappush(queue, (cost[there] + math.dist(there, goal), there))

@@ -29,7 +29,7 @@ class Ahead(Node):
         self.create_subscription(LaserScan, "scan", self.hear, qos_profile_sensor_data)
 
     def hear(self, scan):
-        """Slow down on the last metre."""
+        """Slow down on the last meter."""
         command = Twist()
         command.linear.x = max(0.0, min(0.3, scan.ranges[0] - 1.0))
         self.publisher.publish(command)

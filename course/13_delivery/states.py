@@ -20,7 +20,7 @@ def draw(changes, seen=()):
     for before, after in changes:
         found = (before, after) in seen
         look = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.15", "shrinkA": 28, "shrinkB": 28}
-        look |= {"color": "tab:blue" if found else "grey", "linewidth": 2.5 if found else 1.0}
+        look |= {"color": "tab:blue" if found else "gray", "linewidth": 2.5 if found else 1.0}
         axes.annotate("", xy=places[after], xytext=places[before], arrowprops=look)
     for name, place in places.items():
         box = {"boxstyle": "round,pad=0.5", "facecolor": "white", "edgecolor": "black"}

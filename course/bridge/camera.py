@@ -45,7 +45,7 @@ class Camera(Node):
 
 
 def picture(pose: tuple[float, float, float], scan: LaserScan) -> np.ndarray:
-    """The picture as an array of height, width and the colours red, green, blue."""
+    """The picture as an array of height, width and the colors red, green, blue."""
     pixels = np.empty((HEIGHT, WIDTH, 3), np.uint8)
     pixels[: HEIGHT // 2], pixels[HEIGHT // 2 :] = SKY, FLOOR
     for column in range(WIDTH):
@@ -59,11 +59,11 @@ def picture(pose: tuple[float, float, float], scan: LaserScan) -> np.ndarray:
     return pixels
 
 
-def _draw(pixels: np.ndarray, column: int, depth: float, colour: tuple[int, int, int]) -> None:
+def _draw(pixels: np.ndarray, column: int, depth: float, color: tuple[int, int, int]) -> None:
     """Draw something 0.4 m high at this depth (m), darker if it is farther away."""
     half = min(HEIGHT // 2, round(0.2 / max(depth, 0.05) * WIDTH / (2 * math.tan(VIEW / 2))))
     shade = 1.0 - 0.12 * min(depth, 4.0)
-    pixels[HEIGHT // 2 - half : HEIGHT // 2 + half, column] = [round(shade * part) for part in colour]
+    pixels[HEIGHT // 2 - half : HEIGHT // 2 + half, column] = [round(shade * part) for part in color]
 
 
 def _distance_to_post(pose: tuple[float, float, float], angle: float) -> float:

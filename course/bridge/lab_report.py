@@ -20,7 +20,7 @@ from sim import Recording
 
 ENOUGH, APART = 3, 0.1  # stops; m/s between the slowest and the fastest
 MILLI, CENTI = 1000.0, 100.0
-UNIT = "Give it in seconds, metres and m/s, as everywhere in ROS."
+UNIT = "Give it in seconds, meters and m/s, as everywhere in ROS."
 NO_STOP: Hints = {
     "Record /cmd_vel, too: a stop begins with a command.": lambda run, drive: not drive.commands,
     "Record /odom, too: it shows how fast the robot was.": lambda run, drive: not drive.odometry,

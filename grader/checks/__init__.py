@@ -32,7 +32,7 @@ from grader.checks.motion import (
     keeps_clear,
     passes,
     stands_still,
-    travelled,
+    traveled,
     until_a_touch,
 )
 from grader.checks.nodes import has_timer, named, no_errors
@@ -105,7 +105,7 @@ __all__ = [
     "tenths",
     "tip_at",
     "tip_path",
-    "travelled",
+    "traveled",
     "until_a_touch",
     "usual_mistake",
     "within",

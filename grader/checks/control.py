@@ -1,4 +1,4 @@
-"""Measures over a cart and its pole, and over when messages come: metres, radians, newtons, seconds."""
+"""Measures over a cart and its pole, and over when messages come: meters, radians, newtons, seconds."""
 
 from __future__ import annotations
 

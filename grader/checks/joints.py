@@ -129,7 +129,7 @@ def draws(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.0
 
 
 def _filled(line: Sequence[Point], step: float) -> np.ndarray:
-    """Points on a line through points, at most `step` metres apart; shape (n, 2)."""
+    """Points on a line through points, at most `step` meters apart; shape (n, 2)."""
     points = [np.asarray(line[:1])]
     for begin, end in itertools.pairwise(line):
         count = math.ceil(math.dist(begin, end) / step)

@@ -1,4 +1,4 @@
-"""Measures over where the robot really was: metres, map frame."""
+"""Measures over where the robot really was: meters, map frame."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def after_a_touch(recording: Recording) -> str:
 
 
 def arrives(recording: Recording, goal: Point | None = None, *, tolerance: float = 0.1) -> float:
-    """The distance in metres between where the robot ends and a goal; the world's own when none is given.
+    """The distance in meters between where the robot ends and a goal; the world's own when none is given.
 
     Raises Missed when it's over `tolerance`. Raises ValueError when the world has no goal.
     """
@@ -113,7 +113,7 @@ def passes(recording: Recording, points: Sequence[Point], *, tolerance: float = 
 
 
 def follows(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.1) -> float:
-    """The largest distance in metres from the path to a line through points. Raises Missed if too large."""
+    """The largest distance in meters from the path to a line through points. Raises Missed if too large."""
     last_pose(recording)
     distances = distances_to_line(np.array([(pose.x, pose.y) for pose in recording.path]), line)
     worst = int(np.argmax(distances))
@@ -129,7 +129,7 @@ def follows(recording: Recording, line: Sequence[Point], *, tolerance: float = 0
 
 
 def distances_to_line(points: np.ndarray, line: Sequence[Point]) -> np.ndarray:
-    """Distances in metres of points, shape (n, 2), from a line through two points or more; shape (n,)."""
+    """Distances in meters of points, shape (n, 2), from a line through two points or more; shape (n,)."""
     corners = np.asarray(line)
     starts, spans = corners[:-1], np.diff(corners, axis=0)
     lengths = np.maximum((spans**2).sum(axis=1), 1e-12)
@@ -143,19 +143,19 @@ def until_a_touch(recording: Recording) -> Recording:
     return recording.during(0.0, recording.contacts[0].stamp) if recording.contacts else recording
 
 
-def travelled(recording: Recording) -> float:
-    """The length of the robot's path in metres."""
+def traveled(recording: Recording) -> float:
+    """The length of the robot's path in meters."""
     return length(recording.path)
 
 
 def length(path: Iterable[Pose]) -> float:
-    """The length of a path in metres."""
+    """The length of a path in meters."""
     points = np.array([(pose.x, pose.y) for pose in path]).reshape(-1, 2)
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def stands_still(recording: Recording, *, last: Seconds = 0.5, tolerance: float = 0.005) -> None:
-    """In the last seconds of the run the robot moves less than `tolerance`, in metres and radians.
+    """In the last seconds of the run the robot moves less than `tolerance`, in meters and radians.
 
     Raises Missed if not.
     """
@@ -196,7 +196,7 @@ def last_pose(recording: Recording) -> Pose:
 
 
 def _movement_hint(recording: Recording) -> str:
-    if travelled(recording) > 0.01:
+    if traveled(recording) > 0.01:
         return ""
     if recording.messages("/cmd_vel"):
         return "The robot did not move: are linear.x (m/s) and angular.z (rad/s) of the Twist set?"

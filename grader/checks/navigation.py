@@ -55,7 +55,7 @@ def _wrong_pose(run: Recording, goal: Goal) -> Fault | None:
 
 
 def _wrong_distance(run: Recording, goal: Goal) -> Fault | None:
-    hint = "distance_remaining is the length of the path from the robot to its end, in metres."
+    hint = "distance_remaining is the length of the path from the robot to its end, in meters."
     cells = cells_of(run.messages("/map", "/map_server")[0].message)
     mapped = np.array_equal(cells == 100, ground(run.world).occupied)
     for row in _before_a_touch(run, goal):

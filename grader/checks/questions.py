@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from grader.checks.motion import travelled
+from grader.checks.motion import traveled
 from grader.checks.people import nearest_person
 from grader.checks.shift import Job, Shift, shift
 from sim.evidence import Pose, Recording, Seconds
@@ -194,7 +194,7 @@ def _went_round(recording: Recording, done: Shift) -> Question | None:
     for job in done.delivered:
         begin, end = job.picked_up or job.requested, job.over or recording.stamp
         line = _apart(recording.pose_at(begin), recording.pose_at(end))
-        way = travelled(recording.during(begin, end))
+        way = traveled(recording.during(begin, end))
         ways.append((way - line, way, line, begin, end, job.id))
     more, way, line, begin, end, order = max(ways, default=(0.0,) * 6)
     if more < MORE or way < ROUND * line:

@@ -95,7 +95,7 @@ class TimedMover(PausableNode):
 
 
 class DriveServer(TimedMover):
-    """Offers /drive_on_heading: drives target.x metres ahead at a speed."""
+    """Offers /drive_on_heading: drives target.x meters ahead at a speed."""
 
     slower = 1.0
 
@@ -112,9 +112,9 @@ class DriveServer(TimedMover):
         velocity.linear.x = min(goal.speed, 0.6) / self.slower
 
         def report(seconds: float) -> str:
-            metres = velocity.linear.x * seconds
-            handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=metres))
-            return f"{metres:.2f} m"
+            meters = velocity.linear.x * seconds
+            handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=meters))
+            return f"{meters:.2f} m"
 
         message = await self.move(handle, velocity, goal.target.x / velocity.linear.x, report)
         return DriveOnHeading.Result(error_msg=message)

@@ -67,7 +67,7 @@ class CostmapServer(MapServer):
     """Publishes the map inflated by the robot's size, latched, on /global_costmap/costmap."""
 
     node_name, topic = "costmap", "/global_costmap/costmap"
-    radius = 0.15  # metres
+    radius = 0.15  # meters
 
     def occupied(self) -> np.ndarray:
         """Return which cells the robot must not enter."""

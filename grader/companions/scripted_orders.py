@@ -16,7 +16,7 @@ from grader.companions.map_messages import KEPT, stamped
 from grader.geometry import Point
 from sim.evidence import Seconds, since_start
 
-LEAST, PER_METRE = 20.0, 4.0  # s, and s for each metre from pickup to delivery: what an order takes
+LEAST, PER_METER = 20.0, 4.0  # s, and s for each meter from pickup to delivery: what an order takes
 AMPLE = 200.0  # s
 WELL = 0.9  # how full the battery is where that isn't tried
 SPELL = 2.2, 2.8  # s; how long a situation lasts
@@ -34,7 +34,7 @@ class ScriptedOrder:
     @property
     def takes(self) -> Seconds:
         """How long an order takes, by the rule of the task."""
-        return LEAST + PER_METRE * math.dist(self.pickup, self.delivery)
+        return LEAST + PER_METER * math.dist(self.pickup, self.delivery)
 
 
 @dataclass

@@ -29,7 +29,7 @@ def slow_callback(recording: Recording) -> str:
 
 
 def _was_for_once(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
-    """Whether a timer fired once and never again, although its node was free: it was cancelled."""
+    """Whether a timer fired once and never again, although its node was free: it was canceled."""
     if len(fires) != 1:
         return False
     busy = sum(run.duration for run in of_node if run.stamp >= fires[0].stamp)

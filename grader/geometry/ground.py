@@ -11,8 +11,8 @@ from sim.world.clearance import clearance
 
 Cell = tuple[int, int]  # (column, row)
 
-RESOLUTION = 0.05  # metres; a cell's width
-# Metres of unknown cells around the world's bounds. It is no whole number of cells, and less than walls are
+RESOLUTION = 0.05  # meters; a cell's width
+# Meters of unknown cells around the world's bounds. It is no whole number of cells, and less than walls are
 # inflated by: so a program that does not check where the map ends fails.
 MARGIN = 0.12
 # Straight and diagonal steps, and those of a chess knight: with them a path is at most 3 % too long.
@@ -103,7 +103,7 @@ def shortest(world: World, radius: float = 0.12) -> float:
 
 @functools.lru_cache(maxsize=64)
 def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
-    """Return a smooth path from start to goal, a point every few centimetres, `radius` (m) from everything.
+    """Return a smooth path from start to goal, a point every few centimeters, `radius` (m) from everything.
 
     Where there is none it comes closer. Raises ValueError when the robot does not fit through.
     """

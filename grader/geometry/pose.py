@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 Point = tuple[float, float]
-"""x and y in metres."""
+"""x and y in meters."""
 
 
 class Pose2D(NamedTuple):

@@ -21,7 +21,7 @@ import PIL.Image
 import grader.pictures  # noqa: F401
 import sim.ros
 import sim.view
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from sim.ros.robots.sensor_messages import SensorMessages
 from sim.view.plot import plot
 from sim.world import World, WorldError

@@ -16,10 +16,10 @@ from sim.world.lidar import Lidar
 MARGIN = 0.5
 """How far (m) from the wall a wall follower starts, and should stay."""
 
-FREE_AHEAD, BESIDE = 1.5, 60  # metres that are free at the start, within so many degrees of straight ahead
-BLOCK = 0.8  # metres; the side of the box in the way
+FREE_AHEAD, BESIDE = 1.5, 60  # meters that are free at the start, within so many degrees of straight ahead
+BLOCK = 0.8  # meters; the side of the box in the way
 CHEAP = LidarModel(noise=0.03, dropouts=0.05)
-GAP = 0.15  # metres; how far from everything there is still a path past the box
+GAP = 0.15  # meters; how far from everything there is still a path past the box
 
 
 def hall(seed: int) -> World:

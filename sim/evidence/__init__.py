@@ -4,7 +4,7 @@ A recording holds no live node. Messages are stored as the bytes that were sent 
 so nothing can change after the fact, and are decoded into message objects when they are read.
 
 Stamps are simulated seconds since the start of the run; `since_start` makes such of the stamps in messages,
-which are those of the clocks of the nodes. Poses are in the `map` frame: metres, and radians in
+which are those of the clocks of the nodes. Poses are in the `map` frame: meters, and radians in
 (-pi, pi].
 """
 

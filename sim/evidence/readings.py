@@ -50,7 +50,7 @@ def _command(topic: str, newest: Newest) -> Iterator[tuple[str, str]]:
 
 
 def _joints(newest: Newest) -> Iterator[tuple[str, str]]:
-    """The positions of a machine's joints: radians, or metres of a cart."""
+    """The positions of a machine's joints: radians, or meters of a cart."""
     joints = newest("/joint_states", "sensor_msgs/msg/JointState")
     if joints is not None:
         for name, position in list(zip(joints.name, joints.position, strict=False))[:MAX_ITEMS]:

@@ -11,7 +11,7 @@ TESTS = {
     "ament_python": ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest"),
 }
 LINTERS = {  # what a test of a new package calls, and the message if it fails
-    "copyright": ("main(argv=['.', 'test'])", "a file has no copyright and licence at its top"),
+    "copyright": ("main(argv=['.', 'test'])", "a file has no copyright and license at its top"),
     "flake8": ("main(argv=[])", "the code's style is not the one that flake8 asks for"),
     "pep257": ("main(argv=['.', 'test'])", "a docstring is not as PEP 257 asks for"),
 }
@@ -158,7 +158,7 @@ def _cmakelists(package: NewPackage) -> str:
         "  # the linters of a whole ROS installation, where there is one\n"
         "  find_package(ament_lint_auto QUIET)\n"
         "  if(ament_lint_auto_FOUND)\n"
-        "    # until each file names its owner and its licence\n"
+        "    # until each file names its owner and its license\n"
         "    set(ament_cmake_copyright_FOUND TRUE)\n"
         "    # until the package is in a git repository\n"
         "    set(ament_cmake_cpplint_FOUND TRUE)\n"

@@ -21,7 +21,7 @@ from sim.world import Body
 from sim.world.obstacles import placed
 
 SMOOTH = 2  # antialiasing: frames are drawn larger by this factor, then scaled down
-COLOURS = 32
+COLORS = 32
 SAMPLES = 6  # frames from which the palette is made if the drawing changes
 
 
@@ -54,7 +54,7 @@ class MovingPicture:
         count = max(1, math.ceil(renderer.end * rate / speed))
         frames = [renderer.frame(min(renderer.end, index * speed / rate)) for index in range(count + 1)]
         whole = frames[-1] if renderer.drawing is None else _sheet(frames[:: max(count // SAMPLES, 1)])
-        palette = whole.quantize(COLOURS, dither=Image.Dither.NONE)
+        palette = whole.quantize(COLORS, dither=Image.Dither.NONE)
         small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
         durations = [1000 // rate] * count + [1500]  # ms; the last frame is shown longer
         more = {"append_images": small[1:], "duration": durations, "loop": 0}
@@ -110,7 +110,7 @@ class _FrameRenderer:
         draw = ImageDraw.Draw(image)
         for stroke, points in self.drawing.at(stamp) if self.drawing is not None else ():
             width = max(round(stroke.width * self.scale), 1)
-            draw.line(self._pixels(points), fill=hexadecimal(stroke.colour), width=width)
+            draw.line(self._pixels(points), fill=hexadecimal(stroke.color), width=width)
         for body, track, trail in zip(self.bodies, self.tracks, self.trails, strict=True):
             index = index_at(track, stamp)
             if abs(track[index].stamp - stamp) > MAX_POSE_GAP and body.kind == "turtle":
@@ -121,7 +121,7 @@ class _FrameRenderer:
         draw.text((8 * SMOOTH, 6 * SMOOTH), f"{stamp:.1f} s", fill="black", font_size=12 * SMOOTH)
         return image.reduce(SMOOTH)
 
-    def _draw(self, draw: ImageDraw.ImageDraw, body: Body, centre: tuple[float, float], pose: Pose) -> None:
+    def _draw(self, draw: ImageDraw.ImageDraw, body: Body, center: tuple[float, float], pose: Pose) -> None:
         fill = KINDS.get(body.kind, "#8fb8dc")
         if body.kind == "turtle":
             fill = TURTLES[self.bodies.index(body) % len(TURTLES)]
@@ -129,7 +129,7 @@ class _FrameRenderer:
             corners = self._pixels(placed(body.outline, *pose[1:]))
             draw.polygon(corners, fill=fill, outline="black", width=SMOOTH)
             return
-        (x, y), r = centre, body.radius * self.scale
+        (x, y), r = center, body.radius * self.scale
         draw.ellipse((x - r, y - r, x + r, y + r), fill=fill, outline="black", width=SMOOTH)
         nose = (x + r * math.cos(pose.yaw), y - r * math.sin(pose.yaw))
-        draw.line([centre, nose], fill="black", width=2 * SMOOTH)
+        draw.line([center, nose], fill="black", width=2 * SMOOTH)

@@ -35,9 +35,9 @@ def graph_data(
                 "kind": "ours" if box.from_course else box.kind,
                 "lines": list(box.lines),
                 "name": key[1],
-                "place": _pixels([centre[0] - size[0] / 2, centre[1] - size[1] / 2]) + _sizes(size),
+                "place": _pixels([center[0] - size[0] / 2, center[1] - size[1] / 2]) + _sizes(size),
             }
-            for key, (box, centre, size) in zip(diagram.boxes, layout.boxes, strict=True)
+            for key, (box, center, size) in zip(diagram.boxes, layout.boxes, strict=True)
         ],
         "arrows": [
             {

@@ -21,10 +21,10 @@ SPREAD = 0.8  # fraction of a box's side over which its arrows are distributed
 
 
 class PlacedBox(NamedTuple):
-    """A box with its centre and its size."""
+    """A box with its center and its size."""
 
     box: GraphBox
-    centre: Point
+    center: Point
     size: Point
 
 
@@ -55,7 +55,7 @@ def lay_out(diagram: GraphDiagram, max_width: float) -> GraphLayout:
         layout, transform = layered_layout(sizes, diagram.arrows), _transposed
     paths = _paths(layout, sizes)
     boxes = [
-        PlacedBox(box, transform(layout.centres[key]), transform(sizes[key]))
+        PlacedBox(box, transform(layout.centers[key]), transform(sizes[key]))
         for key, box in diagram.boxes.items()
     ]
     arrows = [_placed(arrow, paths[ends], transform) for ends, arrow in diagram.arrows.items()]
@@ -99,17 +99,17 @@ def _paths(layout: LayeredLayout, sizes: Mapping[Key, Point]) -> dict[tuple[Key,
     paths = {}
     sides: dict[tuple[Key, bool], list[tuple[float, int, tuple[Key, Key]]]] = {}
     for ends, path in layout.paths.items():
-        begin, end = (layout.centres[key] for key in ends)
+        begin, end = (layout.centers[key] for key in ends)
         inner = path[1:-1]
         if len(inner) > 1 and abs(inner[0][0] - begin[0]) > abs(inner[-1][0] - begin[0]):
             inner = inner[::-1]  # the layout has reversed it
         paths[ends] = path = [begin, *inner, end]
         for index, key in ((0, ends[0]), (-1, ends[1])):
-            neighbour = path[1 if index == 0 else -2]
-            right = neighbour[0] > layout.centres[key][0]
-            sides.setdefault((key, right), []).append((neighbour[1], index, ends))
+            neighbor = path[1 if index == 0 else -2]
+            right = neighbor[0] > layout.centers[key][0]
+            sides.setdefault((key, right), []).append((neighbor[1], index, ends))
     for (key, right), arrows in sides.items():
-        (x, y), (width, height) = layout.centres[key], sizes[key]
+        (x, y), (width, height) = layout.centers[key], sizes[key]
         for number, (_, index, ends) in enumerate(sorted(arrows)):
             offset = (number + 0.5) / len(arrows) - 0.5
             paths[ends][index] = x + (width if right else -width) / 2, y + SPREAD * height * offset

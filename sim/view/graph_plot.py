@@ -16,7 +16,7 @@ from sim.view.plot import FAILURE, MUTED, PATH, SOLID, WARNING, Plot, plot
 MARGIN = 0.12  # inches
 MIN_WIDTH, MAX_WIDTH = 3.6, 8.0  # inches
 CHARACTERS = 15  # of a reason, per inch
-# Fill, edge and text colour. Kinds differ in shape and second line, too.
+# Fill, edge and text color. Kinds differ in shape and second line, too.
 STYLES = {
     "node": ("#d3e4f5", PATH, "black"),
     "course": ("#e9ecef", SOLID, "black"),
@@ -41,8 +41,8 @@ class GraphPlot(Plot):
 def plot_graph(recording: Recording) -> GraphPlot:
     """Draw nodes, topics with their rates, services and actions of a run, and the connections between them.
 
-    A missing connection is red, dashed and numbered, and its reason is below the graph. Grey boxes list what
-    a node offers and no node uses. The nodes of the world and of an exercise are grey, too.
+    A missing connection is red, dashed and numbered, and its reason is below the graph. Gray boxes list what
+    a node offers and no node uses. The nodes of the world and of an exercise are gray, too.
 
     The `description` of the returned plot has the same as text.
     """
@@ -79,12 +79,12 @@ def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]
 
 def _wrapped(diagram: GraphDiagram, width: float, failure: str) -> list[tuple[str, dict[str, str]]]:
     """The lines below the graph, each with its text properties."""
-    red, grey, most = {"color": WARNING, "fontweight": "bold"}, {"color": SOLID}, int(width * CHARACTERS)
+    red, gray, most = {"color": WARNING, "fontweight": "bold"}, {"color": SOLID}, int(width * CHARACTERS)
     lines = []
     for number, reason in enumerate(diagram.reasons, 1):
         wrapped = textwrap.wrap(f"{number}  {reason}", most, subsequent_indent="    ")
         lines += [(line, red) for line in wrapped]
-    lines += [(line, grey) for line in textwrap.wrap(diagram.omitted, most)]
+    lines += [(line, gray) for line in textwrap.wrap(diagram.omitted, most)]
     return lines + [(line, {"color": FAILURE}) for line in textwrap.wrap(failure, most)]
 
 
@@ -106,9 +106,9 @@ def _draw_box(axes: Axes, placed: PlacedBox) -> None:
 def _draw_arrow(axes: Axes, placed: PlacedArrow) -> None:
     arrow, points, middle = placed
     muted = arrow.end[0] == "rest"
-    colour = WARNING if arrow.gap else MUTED if muted else SOLID
+    color = WARNING if arrow.gap else MUTED if muted else SOLID
     look = {"linewidth": 1.8, "linestyle": (0, (4, 2))} if arrow.gap else {"linewidth": 1.0}
-    look |= {"arrowstyle": "-" if muted else "-|>,head_length=0.35,head_width=0.18", "color": colour}
+    look |= {"arrowstyle": "-" if muted else "-|>,head_length=0.35,head_width=0.18", "color": color}
     look |= {"mutation_scale": 14, "zorder": 0.5, "shrinkA": 0, "shrinkB": 0}
     curves = Path(points, [Path.MOVETO, *[Path.CURVE4] * (len(points) - 1)])
     axes.add_patch(FancyArrowPatch(path=curves, **look))

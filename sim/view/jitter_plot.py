@@ -48,7 +48,7 @@ def plot_jitter(
     axes.grid(color=GRID)
     legend_beside(axes)
     curves = [series("time since the last", *zip(*gaps, strict=True), style="points")]
-    curves += [series("missed", *zip(*late, strict=True), style="points", colour="warning")] if late else []
+    curves += [series("missed", *zip(*late, strict=True), style="points", color="warning")] if late else []
     levels = [(nominal, "mean" if period is None else "period", "muted")]
     levels += [] if deadline is None else [(1000 * deadline, "deadline", "caution")]
     title = _title(topic, moments, gaps, deadline, late)

@@ -14,10 +14,10 @@ BETWEEN_LAYERS, BETWEEN_BOXES = 0.38, 0.16  # inches
 
 
 class LayeredLayout(NamedTuple):
-    """Centres of boxes and paths of arrows, in inches: along the sequence of layers, and across it."""
+    """Centers of boxes and paths of arrows, in inches: along the sequence of layers, and across it."""
 
-    centres: dict
-    paths: dict  # (begin, end) to points, including the two boxes' centres
+    centers: dict
+    paths: dict  # (begin, end) to points, including the two boxes' centers
     along: float
     across: float
 
@@ -66,7 +66,7 @@ def layered_layout(sizes: Mapping[K, Point], arrows: Iterable[tuple[K, K]]) -> L
     for key, vertex in vertices.items():
         vertex.view = _View(*sizes[key])
     edges = [_Edge(vertices[begin], vertices[end], number) for number, (begin, end) in enumerate(arrows)]
-    centres: dict[K, Point] = {}
+    centers: dict[K, Point] = {}
     paths: dict[tuple[K, K], list[Point]] = {}
     along = across = 0.0
     parts = Graph(list(vertices.values()), edges).C
@@ -81,14 +81,14 @@ def layered_layout(sizes: Mapping[K, Point], arrows: Iterable[tuple[K, K]]) -> L
             return point[1] - left, point[0] - top
 
         for vertex in part.sV:
-            centres[vertex.data] = position(vertex.view.xy)
+            centers[vertex.data] = position(vertex.view.xy)
         for edge in part.sE:
             ends = edge.v[0], edge.v[1]
             points = edge.view.points or [end.view.xy for end in ends]
             paths[ends[0].data, ends[1].data] = [position(point) for point in points]
         along = max(along, max(view.xy[1] + view.h / 2 for view in boxes) - left)
         across += max([*(view.xy[0] + view.w / 2 for view in boxes), *bends]) - top + BETWEEN_BOXES
-    return LayeredLayout(centres, paths, along, across)
+    return LayeredLayout(centers, paths, along, across)
 
 
 def _lay_out(part: Graph) -> None:

@@ -1,4 +1,4 @@
-"""`plot_map`: an occupancy grid as in RViz, with a path, the robot and its driven path; metres, map frame."""
+"""`plot_map`: an occupancy grid as in RViz, with a path, the robot and its driven path; meters, map frame."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sim.view.plot import CAUTION, PATH, WARNING, Plot, legend_beside, note_fail
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
 RADIUS = 0.1  # of the robot's marker, m
-# Values 0 to 100 as colours: free, then darker with higher cost, then occupied.
+# Values 0 to 100 as colors: free, then darker with higher cost, then occupied.
 _COSTS = np.linspace((0.94, 0.97, 1.0, 1.0), (0.45, 0.62, 0.80, 1.0), 99)
 _SHADES = ListedColormap([UNKNOWN, FREE, *_COSTS, OCCUPIED])
 
@@ -25,7 +25,7 @@ def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording
     """Plot a nav_msgs/OccupancyGrid, whose origin must not be rotated.
 
     path: a nav_msgs/Path, or points (x, y).
-    robot: its pose, (x, y, yaw) in metres and radians.
+    robot: its pose, (x, y, yaw) in meters and radians.
     drive: a run whose driven path is drawn too, with the robot at its end.
     Raises ValueError for a map without cells.
     """

@@ -1,4 +1,4 @@
-"""`plot_path`: the world of a run and the paths of its moving bodies; metres, map frame."""
+"""`plot_path`: the world of a run and the paths of its moving bodies; meters, map frame."""
 
 from __future__ import annotations
 
@@ -50,20 +50,20 @@ def plot_path(recording: Recording) -> Plot:
         first = body is bodies[0]
         if body.kind == "turtle":
             if recording.stamp - track[-1].stamp < MAX_POSE_GAP:
-                colour = TURTLES[bodies.index(body) % len(TURTLES)]
-                _draw(axes, body, track[-1], colour, 1.0, body.name)
+                color = TURTLES[bodies.index(body) % len(TURTLES)]
+                _draw(axes, body, track[-1], color, 1.0, body.name)
             continue
         if body.kind == "robot":
-            colour = ROBOTS[robots.index(body) % len(ROBOTS)]
+            color = ROBOTS[robots.index(body) % len(ROBOTS)]
             path = [pose.x for pose in track], [pose.y for pose in track]
             style = STYLES[robots.index(body) % len(STYLES)]
-            look = {"color": colour, "linestyle": style, "linewidth": 1.8}
+            look = {"color": color, "linestyle": style, "linewidth": 1.8}
             axes.plot(*path, **look, label="path" if first else body.name)
         else:
-            colour = KINDS.get(body.kind, MUTED)
+            color = KINDS.get(body.kind, MUTED)
         _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)
         end = f"end, {track[-1].stamp:.3g} s" if first else None
-        _draw(axes, body, track[-1], colour, 0.45 if body.kind == "robot" else 0.9, end)
+        _draw(axes, body, track[-1], color, 0.45 if body.kind == "robot" else 0.9, end)
     if recording.tip:
         path = [pose.x for pose in recording.tip], [pose.y for pose in recording.tip]
         axes.plot(*path, color=ROBOTS[0], linewidth=1.8, label="tip's path")
@@ -126,9 +126,9 @@ def draw_world(axes: Axes, world: World) -> None:
         axes.annotate(name, (x, y), (4, 3), textcoords="offset points", fontsize=7, color=SOLID)
 
 
-def _draw(axes: Axes, body: Body, pose: Pose, colour: str, alpha: float, label: str | None) -> None:
+def _draw(axes: Axes, body: Body, pose: Pose, color: str, alpha: float, label: str | None) -> None:
     """Draw a body, with its heading if it is a robot."""
-    look = {"facecolor": colour, "edgecolor": colour, "alpha": alpha, "label": label}
+    look = {"facecolor": color, "edgecolor": color, "alpha": alpha, "label": label}
     if body.outline:
         axes.add_patch(Polygon(placed(body.outline, *pose[1:]), **look))
     else:

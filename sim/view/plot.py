@@ -19,12 +19,12 @@ PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and further ones
 KINDS = {"box": "#d9b991", "person": "#f08a5d", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
 TURTLES = ("#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8")  # on a pond's background
-STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ in more than colour
+STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ in more than color
 GRID = "#e6e9ec"
 FAILURE = "#b3261e"  # 6.5 to 1 on white
 CHARACTERS, LINE = 14, 0.18  # of a note: per inch, and inches
 DPI = 100
-COLOURS = 48  # of a small picture
+COLORS = 48  # of a small picture
 
 
 class Plot(Figure):
@@ -99,9 +99,9 @@ def png(figure: Figure) -> bytes:
 
 
 def small_png(figure: Plot) -> bytes:
-    """The figure as a PNG with few colours, a quarter of the size."""
+    """The figure as a PNG with few colors, a quarter of the size."""
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     buffer = io.BytesIO()
-    image.quantize(COLOURS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
+    image.quantize(COLORS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()

@@ -26,17 +26,17 @@ def series(
     values: Sequence[float],
     *,
     style: str = "line",
-    colour: str | int = 0,
+    color: str | int = 0,
 ) -> dict[str, Any]:
     """A series of a panel: a "line", a "step" line, or "points". NaN breaks a line; infinities are left out.
 
-    colour: the index of a robot's colour, or "warning" or "caution".
+    color: the index of a robot's color, or "warning" or "caution".
     """
     points = thinned(list(zip(moments, values, strict=True)), POINTS)
     return {
         "name": name,
         "style": style,
-        "colour": colour,
+        "color": color,
         "markers": style == "points" or len(points) <= FEW,
         "x": [round(moment, 4) for moment, _ in points],
         "y": [float(f"{value:.5g}") if math.isfinite(value) else None for _, value in points],
@@ -46,15 +46,15 @@ def series(
 def panel(
     unit: str, curves: Iterable[dict[str, Any]], levels: Sequence[tuple[float, str, str]] = ()
 ) -> dict[str, Any]:
-    """Series with one vertical axis. levels: values, names and colours of horizontal lines."""
+    """Series with one vertical axis. levels: values, names and colors of horizontal lines."""
     return {"unit": unit, "series": list(curves), "levels": [list(level) for level in levels]}
 
 
-def row(name: str, moments: Sequence[float], colour: str | int = 0) -> dict[str, Any]:
+def row(name: str, moments: Sequence[float], color: str | int = 0) -> dict[str, Any]:
     """A row of ticks; a name may have several lines."""
     return {
         "name": name,
-        "colour": colour,
+        "color": color,
         "x": [round(moment, 4) for moment in thinned(list(moments), TICKS)],
     }
 

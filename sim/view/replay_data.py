@@ -1,6 +1,6 @@
 """Converts a recording to the compact data of a replay: motion, scans, contacts, log lines and topics.
 
-Numbers are whole millimetres, milliradians and milliseconds, stored as differences; then everything is
+Numbers are whole millimeters, milliradians and milliseconds, stored as differences; then everything is
 deflated. The size is bounded for runs of any length, by limits on the number of poses, ranges and lines.
 `checkRun` in web/replay.js parses it.
 """

@@ -1,4 +1,4 @@
-"""Pen strokes for pages and plots: lines with a colour, a width and points in metres."""
+"""Pen strokes for pages and plots: lines with a color, a width and points in meters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from sim.world import PenDrawing, Stroke, World
-from sim.world.pen_drawing import Colour
+from sim.world.pen_drawing import Color
 
 Item = TypeVar("Item")
 
@@ -23,7 +23,7 @@ def visible_strokes(drawing: PenDrawing) -> dict[str, Any]:
     return {
         "ground": number(drawing.ground),
         "strokes": [
-            [number(stroke.colour), stroke.width, [[round(x, 3), round(y, 3)] for _, x, y in points]]
+            [number(stroke.color), stroke.width, [[round(x, 3), round(y, 3)] for _, x, y in points]]
             for stroke, points in _limited(strokes)
         ],
     }
@@ -33,11 +33,11 @@ def all_strokes(drawing: PenDrawing) -> dict[str, Any]:
     """All strokes, erased ones included, for JSON, with times in whole milliseconds."""
     return {
         "grounds": [
-            [round(stamp * 1000), number(colour)] for stamp, colour in thinned(drawing.grounds, STROKES)
+            [round(stamp * 1000), number(color)] for stamp, color in thinned(drawing.grounds, STROKES)
         ],
         "strokes": [
             [
-                number(stroke.colour),
+                number(stroke.color),
                 stroke.width,
                 None if stroke.erased is None else round(stroke.erased * 1000),
                 [[round(stamp * 1000), round(x, 3), round(y, 3)] for stamp, x, y in points],
@@ -62,21 +62,21 @@ def thinned(items: Sequence[Item], most: int) -> list[Item]:
     return [items[round(index * gap)] for index in range(most)]
 
 
-def number(colour: Colour) -> int:
-    """A colour as a number, 0xRRGGBB."""
-    red, green, blue = colour
+def number(color: Color) -> int:
+    """A color as a number, 0xRRGGBB."""
+    red, green, blue = color
     return red << 16 | green << 8 | blue
 
 
-def hexadecimal(colour: Colour) -> str:
-    """A colour as "#rrggbb"."""
-    return f"#{number(colour):06x}"
+def hexadecimal(color: Color) -> str:
+    """A color as "#rrggbb"."""
+    return f"#{number(color):06x}"
 
 
-def draw_ground(axes: Axes, world: World, colour: Colour) -> None:
-    """Fill the world's bounds with a colour."""
+def draw_ground(axes: Axes, world: World, color: Color) -> None:
+    """Fill the world's bounds with a color."""
     left, bottom, right, top = world.bounds
-    look = {"color": hexadecimal(colour), "zorder": 0.1}
+    look = {"color": hexadecimal(color), "zorder": 0.1}
     axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, **look))
 
 
@@ -87,4 +87,4 @@ def draw_strokes(axes: Axes, drawing: PenDrawing, stamp: float) -> None:
     left, right = axes.get_xlim()
     for stroke, points in drawing.at(stamp):
         width = max(stroke.width / (right - left) * inches * _POINTS_PER_INCH, 0.8)
-        axes.plot(*zip(*points, strict=True), color=hexadecimal(stroke.colour), linewidth=width, zorder=0.9)
+        axes.plot(*zip(*points, strict=True), color=hexadecimal(stroke.color), linewidth=width, zorder=0.9)

@@ -1,6 +1,6 @@
 """A small SVG of a run: its world with paths, its graph, or its log lines. Equal runs give equal bytes.
 
-The colours are legible on light and on dark pages. The SVG has no scripts, fonts or addresses.
+The colors are legible on light and on dark pages. The SVG has no scripts, fonts or addresses.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def thumbnail(recording: Recording, drawing: str = "world") -> str:
 
 
 class _Fit:
-    """Converts metres to pixels, so that an area fills the picture without being distorted."""
+    """Converts meters to pixels, so that an area fills the picture without being distorted."""
 
     def __init__(self, left: float, bottom: float, right: float, top: float) -> None:
         self.scale = min((WIDTH - 2 * MARGIN) / (right - left), (HEIGHT - 2 * MARGIN) / (top - bottom))
@@ -71,8 +71,8 @@ def _world(recording: Recording) -> Iterable[str]:
     if world.goal:
         yield _star(fit(world.goal))
     if recording.drawing is not None:
-        for colour, _, points in visible_strokes(recording.drawing)["strokes"]:
-            yield _line(fit.path(points), f"#{colour:06x}", 2)
+        for color, _, points in visible_strokes(recording.drawing)["strokes"]:
+            yield _line(fit.path(points), f"#{color:06x}", 2)
     if recording.tip:
         yield _line(fit.path((pose.x, pose.y) for pose in recording.tip), ROBOTS[0], 2.5)
     yield from _bodies(recording, tracks, fit)
@@ -98,22 +98,22 @@ def _bodies(recording: Recording, tracks: Sequence[Sequence[Pose]], fit: _Fit) -
     """The paths of robots, and all bodies at their last poses."""
     kinds = [body.kind for body in recording.bodies]
     for index, (body, track) in enumerate(zip(recording.bodies, tracks, strict=True)):
-        colour = KINDS.get(body.kind, SOLID)
+        color = KINDS.get(body.kind, SOLID)
         if body.kind == "turtle":
-            colour = TURTLES[kinds[:index].count("turtle") % len(TURTLES)]
+            color = TURTLES[kinds[:index].count("turtle") % len(TURTLES)]
         if body.kind == "robot":
-            colour = ROBOTS[kinds[:index].count("robot") % len(ROBOTS)]
-            yield _line(fit.path(pose[1:3] for pose in track), colour, 2.5)
-        yield from _body(body, track[-1], colour, fit)
+            color = ROBOTS[kinds[:index].count("robot") % len(ROBOTS)]
+            yield _line(fit.path(pose[1:3] for pose in track), color, 2.5)
+        yield from _body(body, track[-1], color, fit)
 
 
-def _body(body: Body, pose: Pose, colour: str, fit: _Fit) -> Iterable[str]:
+def _body(body: Body, pose: Pose, color: str, fit: _Fit) -> Iterable[str]:
     if body.outline:
-        yield _area_of(fit.path(placed(body.outline, *pose[1:]), "z"), colour)
+        yield _area_of(fit.path(placed(body.outline, *pose[1:]), "z"), color)
         return
     x, y = fit(pose[1:3])
     radius = max(body.radius * fit.scale, ROBOT if body.kind == "robot" else 3.0)
-    yield _disc((x, y), radius, colour)
+    yield _disc((x, y), radius, color)
     if body.kind == "robot":
         nose = x + 0.8 * radius * math.cos(pose.yaw), y - 0.8 * radius * math.sin(pose.yaw)
         yield _line(f"M{_short(x)},{_short(y)} {_short(nose[0])},{_short(nose[1])}", "#fff", 2)
@@ -127,15 +127,15 @@ def _graph(recording: Recording) -> Iterable[str]:
     for arrow in data["arrows"]:
         first, second, *rest = _pairs(arrow["points"])
         curve = f"M{first} C{' '.join([second, *rest])}"
-        colour = GAP if arrow["gap"] else WALL
-        yield _line(curve, colour, 3, "8 5" if arrow["gap"] else "")
+        color = GAP if arrow["gap"] else WALL
+        yield _line(curve, color, 3, "8 5" if arrow["gap"] else "")
     for box in data["boxes"]:
         yield from _box(box)
     yield "</g>"
 
 
 def _box(box: dict[str, Any]) -> Iterable[str]:
-    """A node is round and blue, the course's is grey; a topic has corners."""
+    """A node is round and blue, the course's is gray; a topic has corners."""
     left, top, width, height = box["place"]
     node, rest = box["kind"] in ("node", "ours"), box["kind"] == "rest"
     edge = ROBOTS[0] if box["kind"] == "node" else SOLID if rest else WALL
@@ -172,25 +172,25 @@ def _pairs(values: Sequence[float]) -> list[str]:
     return [f"{x},{y}" for x, y in zip(values[::2], values[1::2], strict=True)]
 
 
-def _line(path: str, colour: str, width: float, dashes: str = "") -> str:
+def _line(path: str, color: str, width: float, dashes: str = "") -> str:
     dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
     look = f'stroke-width="{width}" stroke-linecap="round" stroke-linejoin="round"'
-    return f'<path d="{path}" fill="none" stroke="{colour}" {look}{dashed}/>'
+    return f'<path d="{path}" fill="none" stroke="{color}" {look}{dashed}/>'
 
 
 def _area_of(path: str, fill: str) -> str:
     return f'<path d="{path}" fill="{fill}" stroke="{WALL}"/>'
 
 
-def _disc(centre: Point, radius: float, fill: str) -> str:
-    x, y = map(_short, centre)
+def _disc(center: Point, radius: float, fill: str) -> str:
+    x, y = map(_short, center)
     return f'<circle cx="{x}" cy="{y}" r="{_short(radius)}" fill="{fill}"/>'
 
 
-def _star(centre: Point) -> str:
+def _star(center: Point) -> str:
     angles = [math.pi * (tip / 5 - 0.5) for tip in range(10)]
     points = [
-        (centre[0] + reach * math.cos(angle), centre[1] + reach * math.sin(angle))
+        (center[0] + reach * math.cos(angle), center[1] + reach * math.sin(angle))
         for angle, reach in zip(angles, [13.0, 5.5] * 5, strict=True)
     ]
     path = " ".join(f"{_short(x)},{_short(y)}" for x, y in points)

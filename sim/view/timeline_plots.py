@@ -56,10 +56,10 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
     if recording.errors:
         rows.append(("errors", [error.stamp for error in recording.errors], WARNING))
     figure, axes = plot(7.2, 0.9 + 0.5 * max(len(rows), 1))
-    for height, (_, moments, colour) in enumerate(rows):
-        axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
+    for height, (_, moments, color) in enumerate(rows):
+        axes.plot(moments, [height] * len(moments), "|", color=color, markersize=16, markeredgewidth=1.5)
     _along_time(recording, axes, [label for label, _, _ in rows])
-    ticks = [row(label, moments, _PALETTE.get(colour, 0)) for label, moments, colour in rows]
+    ticks = [row(label, moments, _PALETTE.get(color, 0)) for label, moments, color in rows]
     figure.interactive = plot_data(recording, "Messages over time", rows=ticks)
     return note_failure(figure, recording)
 
@@ -83,15 +83,15 @@ def _count(items: Sequence[Any], noun: str) -> str:
 
 
 def plot_logs(recording: Recording) -> Plot:
-    """One row per logger with a tick for each log line; the colour is its level."""
+    """One row per logger with a tick for each log line; the color is its level."""
     names = sorted({line.node for line in recording.logs})
     figure, axes = plot(7.2, 0.9 + 0.5 * max(len(names), 1))
-    for level, (colour, marker) in LEVELS.items():
+    for level, (color, marker) in LEVELS.items():
         lines = [line for line in recording.logs if line.level == level]
         if lines:
             moments, rows = [line.stamp for line in lines], [names.index(line.node) for line in lines]
             size = 16 if marker == "|" else 9
-            look = {"color": colour, "markersize": size, "markeredgewidth": 2, "label": level}
+            look = {"color": color, "markersize": size, "markeredgewidth": 2, "label": level}
             axes.plot(moments, rows, marker, **look)
     _along_time(recording, axes, names)
     figure.interactive = plot_data(recording, "Log lines over time", rows=_log_rows(recording, names))

@@ -9,7 +9,7 @@ from sim.world import Body, World
 
 
 def world_data(world: World, bodies: Sequence[Body] | None = None) -> dict[str, Any]:
-    """The data of a world for a page, ready for JSON: metres and radians, rounded to a tenth of a millimetre.
+    """The data of a world for a page, ready for JSON: meters and radians, rounded to a tenth of a millimeter.
 
     bodies: the moving bodies, if some were added during the run.
 

@@ -11,7 +11,7 @@ from sim.world.robot import Odometry
 from sim.world.validated_model import Model, positive, within
 
 NEAR = 0.15
-"""A robot is at a location if its centre is within this distance (m)."""
+"""A robot is at a location if its center is within this distance (m)."""
 
 _HOUR = 3600.0  # s
 
@@ -71,7 +71,7 @@ class Battery:
     def update(self, seconds: float, position: Point, motion: Odometry, lever: float) -> None:
         """Charge or discharge for a time step in a robot at this position with this motion.
 
-        lever: the distance of the wheels from the robot's centre, m.
+        lever: the distance of the wheels from the robot's center, m.
         """
         model = self.model
         if math.dist(position, self.charger) <= NEAR:

@@ -10,7 +10,7 @@ from sim.world.obstacles import Point
 class Body(NamedTuple):
     """One moving body. Its pose (x, y, yaw) in the map frame changes, its shape does not.
 
-    kind: robot, box, person, link, cart or turtle; it selects the colour in pictures. A body with a `radius`
+    kind: robot, box, person, link, cart or turtle; it selects the color in pictures. A body with a `radius`
     (m) is a disc; any other is the polygon `outline`, with corners (m) in its own frame, x forward.
     """
 

@@ -14,7 +14,7 @@ from sim.world.validated_model import Model, at_least, within
 
 @dataclass(frozen=True)
 class ImuModel(Model):
-    """An IMU at the robot's centre: rate, noise and bias of gyro and accelerometer.
+    """An IMU at the robot's center: rate, noise and bias of gyro and accelerometer.
 
     Noise is the standard deviation of each reading. A bias is constant and drawn for each axis from the run's
     seed: its absolute value is half to all of the value given here, so there is always a bias.

@@ -25,24 +25,24 @@ class LidarModel(Model):
     """A robot's lidar: rays per turn, range limits (m), standard deviation of the noise (m).
 
     `dropouts` is the probability that a ray has no measurement. `x`, `y` (m) and `yaw` (rad) are the pose of
-    base_scan in base_link; by default the robot's centre, facing forward. `silent` are the intervals [begin,
+    base_scan in base_link; by default the robot's center, facing forward. `silent` are the intervals [begin,
     end] (s) without scans.
     """
 
     rays: Annotated[int, within(1, 10_000)] = 360
-    range_min: Annotated[float, at_least(0, "metres")] = 0.12
+    range_min: Annotated[float, at_least(0, "meters")] = 0.12
     range_max: Length = 3.5
-    noise: Annotated[float, at_least(0, "metres")] = 0.01
+    noise: Annotated[float, at_least(0, "meters")] = 0.01
     dropouts: Annotated[float, within(0, 1)] = 0.0
-    x: Annotated[float, within(-1, 1, "metres")] = 0.0
-    y: Annotated[float, within(-1, 1, "metres")] = 0.0
+    x: Annotated[float, within(-1, 1, "meters")] = 0.0
+    y: Annotated[float, within(-1, 1, "meters")] = 0.0
     yaw: Angle = 0.0
     silent: Annotated[tuple[Interval, ...], Constraint(_INTERVALS, _are_intervals)] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.range_min >= self.range_max:
-            self.reject("range_min", f"a number below range_max, {self.range_max:g} (metres)")
+            self.reject("range_min", f"a number below range_max, {self.range_max:g} (meters)")
 
     @property
     def angle_increment(self) -> float:

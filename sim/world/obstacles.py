@@ -28,7 +28,7 @@ def ring(corners: Sequence[Point]) -> tuple[Segment, ...]:
 
 @dataclass(frozen=True)
 class Box(Model):
-    """A static rectangle: centre (m) and yaw (rad) in the map frame.
+    """A static rectangle: center (m) and yaw (rad) in the map frame.
 
     `width` and `height` (m) are its sizes along its own x and y.
     """
@@ -71,10 +71,10 @@ class MovableBox(Box):
 
     @property
     def max_friction_torque(self) -> float:
-        """The greatest friction torque about the centre, N m.
+        """The greatest friction torque about the center, N m.
 
         The load is distributed evenly over the base, so the lever is the mean distance of the rectangle's
-        points from its centre.
+        points from its center.
         """
         a, b = self.width / 2, self.height / 2
         d = math.hypot(a, b)
@@ -84,7 +84,7 @@ class MovableBox(Box):
 
 @dataclass(frozen=True)
 class Circle(Model):
-    """A static round pillar: centre in the map frame and radius (m)."""
+    """A static round pillar: center in the map frame and radius (m)."""
 
     x: Coordinate
     y: Coordinate

@@ -6,20 +6,20 @@ import bisect
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-Colour = tuple[int, int, int]
+Color = tuple[int, int, int]
 """Red, green and blue, each from 0 to 255."""
 _MOST_POINTS = 20_000  # kept in a run without an end
 
 
 @dataclass(slots=True)
 class Stroke:
-    """One continuous line of a pen: its colour and width (m), and points (stamp, x, y) in s and m.
+    """One continuous line of a pen: its color and width (m), and points (stamp, x, y) in s and m.
 
     pen: the name of the body that has the pen. erased: when the line was erased (s), or None.
     """
 
     pen: str
-    colour: Colour
+    color: Color
     width: float
     points: list[tuple[float, float, float]] = field(default_factory=list)
     erased: float | None = None
@@ -36,26 +36,26 @@ class Stroke:
 
 @dataclass(slots=True)
 class PenDrawing:
-    """All strokes, oldest first, and the colours of the ground, each from a stamp (s) on."""
+    """All strokes, oldest first, and the colors of the ground, each from a stamp (s) on."""
 
     strokes: list[Stroke] = field(default_factory=list)
-    grounds: list[tuple[float, Colour]] = field(default_factory=list)
+    grounds: list[tuple[float, Color]] = field(default_factory=list)
 
     @property
-    def ground(self) -> Colour:
-        """The current colour of the ground."""
+    def ground(self) -> Color:
+        """The current color of the ground."""
         return self.grounds[-1][1]
 
-    def ground_at(self, stamp: float) -> Colour:
-        """The colour of the ground at `stamp` (s)."""
+    def ground_at(self, stamp: float) -> Color:
+        """The color of the ground at `stamp` (s)."""
         return next(
-            (colour for since, colour in reversed(self.grounds) if since <= stamp), self.grounds[0][1]
+            (color for since, color in reversed(self.grounds) if since <= stamp), self.grounds[0][1]
         )
 
-    def set_ground(self, stamp: float, colour: Colour) -> None:
-        """Change the colour of the ground from `stamp` (s) on."""
-        if not self.grounds or colour != self.ground:
-            self.grounds.append((stamp, colour))
+    def set_ground(self, stamp: float, color: Color) -> None:
+        """Change the color of the ground from `stamp` (s) on."""
+        if not self.grounds or color != self.ground:
+            self.grounds.append((stamp, color))
 
     def at(self, stamp: float) -> Iterator[tuple[Stroke, list[tuple[float, float]]]]:
         """The strokes that are visible at `stamp` (s), each with its points up to then."""

@@ -14,7 +14,7 @@ from sim.world.robot import DT, ROUTE, Pose, is_loop
 from sim.world.route import Route
 from sim.world.validated_model import Constraint, Length, Model, positive
 
-_LOOK_AHEAD = 0.6  # m from the centre; a standing obstacle within it blocks the person
+_LOOK_AHEAD = 0.6  # m from the center; a standing obstacle within it blocks the person
 _SIDE_GAP = 0.05  # m; an obstacle with less clearance at the side blocks, too
 _TOUCHING = 0.01  # m; an obstacle nearer than this blocks even while it moves
 _STANDING = 0.05  # m/s; anything faster counts as moving

@@ -17,7 +17,7 @@ DT = 1 / RATE
 
 
 _NAME = "a name of small letters, digits and single underscores that begins with a letter"
-ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
+ROUTE = "[[x, y], ...], two or more corners (meters), each different from the one before"
 
 
 def is_loop(route: tuple[Point, ...]) -> bool:
@@ -49,11 +49,11 @@ class RobotModel(Model):
     max_torque: Annotated[float, positive("N m")] = 0.25
     friction: Annotated[float, within(0, 10)] = 0.3
     stamped: Annotated[bool, Constraint("true or false")] = False
-    odometry: Annotated[Pose, Constraint("[x, y, yaw] (metres and radians)")] = (0.0, 0.0, 0.0)  # at time 0
+    odometry: Annotated[Pose, Constraint("[x, y, yaw] (meters and radians)")] = (0.0, 0.0, 0.0)  # at time 0
 
     @property
     def inertia(self) -> float:
-        """Moment of inertia about its centre, kg m^2."""
+        """Moment of inertia about its center, kg m^2."""
         return self.mass * self.radius**2 / 2
 
     def __post_init__(self) -> None:
@@ -83,10 +83,10 @@ class OtherRobot(Model):
     """
 
     name: Annotated[str, Constraint(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
-    start: Annotated[Pose, Constraint("[x, y, yaw] (metres and radians)")]
+    start: Annotated[Pose, Constraint("[x, y, yaw] (meters and radians)")]
     route: Annotated[tuple[Point, ...], Constraint(ROUTE, is_loop)] = ()
     speed: Annotated[float, positive("m/s")] = 0.2
-    charger: Annotated[Point, Constraint("[x, y] (metres)")] | None = None
+    charger: Annotated[Point, Constraint("[x, y] (meters)")] | None = None
 
 
 class Odometry(NamedTuple):

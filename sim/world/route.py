@@ -11,7 +11,7 @@ from sim.world.obstacles import Point, ring
 class Route:
     """Straight lines from corner to corner (m) and from the last back to the first.
 
-    A position on the route is the distance along it from the first corner, in metres, modulo its length.
+    A position on the route is the distance along it from the first corner, in meters, modulo its length.
     """
 
     def __init__(self, corners: Sequence[Point]) -> None:
@@ -31,7 +31,7 @@ class Route:
     def nearest(self, x: float, y: float, begin: float = 0.0, reach: float = math.inf) -> float:
         """The position on the route that is nearest to a point (m); of several, the first.
 
-        Only the `reach` metres of the route from the position `begin` on are searched.
+        Only the `reach` meters of the route from the position `begin` on are searched.
         """
         reach = min(reach, self.length)
         candidates = [begin, begin + reach]

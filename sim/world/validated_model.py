@@ -5,7 +5,7 @@ annotations:
 
     @dataclass(frozen=True)
     class LidarModel(Model):
-        range_min: Annotated[float, at_least(0, "metres")] = 0.12
+        range_min: Annotated[float, at_least(0, "meters")] = 0.12
 
 A condition on two fields is checked in `__post_init__`, which calls `self.reject(...)` if it doesn't hold.
 """
@@ -59,8 +59,8 @@ def within(least: float, most: float, unit: str = "") -> Constraint:
     return Constraint(f"a number from {least:g} to {most:.7g}{unit}", lambda value: least <= value <= most)
 
 
-Coordinate = Annotated[float, within(-1000, 1000, "metres")]
-Length = Annotated[float, positive("metres", 1000)]
+Coordinate = Annotated[float, within(-1000, 1000, "meters")]
+Length = Annotated[float, positive("meters", 1000)]
 Angle = Annotated[float, Constraint("a finite number (radians)")]
 
 _MAX_CHARACTERS = 80  # of a value in an error

@@ -8,7 +8,7 @@ from typing import Annotated
 from sim.world.robot import Pose
 from sim.world.validated_model import Constraint, Model, positive, within
 
-_POSE = "[x, y, yaw] (metres and radians)"
+_POSE = "[x, y, yaw] (meters and radians)"
 _POSES = f"a list of one or more poses {_POSE}"
 _MOMENTS = "a list of moments (s), 0 or later"
 

@@ -26,7 +26,7 @@ from sim.world.warehouse import WarehouseModel
 
 _FOLDER = Path(__file__).parent / "worlds"
 
-_BOUNDS = "[xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax"
+_BOUNDS = "[xmin, ymin, xmax, ymax] (meters) with xmin < xmax and ymin < ymax"
 _WALLS = f"a list of walls, each a list of {world_file.CORNERS}"
 _MACHINES = tuple(world_file.MACHINES.values())
 _MACHINE = Constraint(
@@ -41,7 +41,7 @@ _Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 
 @dataclass(frozen=True)
 class World(Model):
-    """A flat world; lengths in metres, angles in radians, all in the map frame.
+    """A flat world; lengths in meters, angles in radians, all in the map frame.
 
     Attributes:
         name: the file's name without `.toml`.
@@ -70,8 +70,8 @@ class World(Model):
     name: str
     card: str
     bounds: Annotated[_Bounds, Constraint(_BOUNDS, lambda b: b[0] < b[2] and b[1] < b[3])]
-    start: Annotated[Pose, Constraint("[x, y, yaw] (metres and radians) inside the bounds")] = (0.0, 0.0, 0.0)
-    goal: Annotated[Point, Constraint("[x, y] (metres) inside the bounds")] | None = None
+    start: Annotated[Pose, Constraint("[x, y, yaw] (meters and radians) inside the bounds")] = (0.0, 0.0, 0.0)
+    goal: Annotated[Point, Constraint("[x, y] (meters) inside the bounds")] | None = None
     walls: Annotated[tuple[Segment, ...], Constraint(_WALLS, lambda all_: all(a != b for a, b in all_))] = ()
     boxes: Annotated[tuple[Box, ...], Constraint("a list of Box")] = ()
     circles: Annotated[tuple[Circle, ...], Constraint("a list of Circle")] = ()

@@ -27,7 +27,7 @@ from sim.world.validated_model import (
 CARD_HEADINGS = ("Picture", "Topics", "Frames and units", "Start", "Ends when")
 """The headings of every world's card, in order."""
 
-CORNERS = "two or more corners [x, y] (metres), each different from the one before"
+CORNERS = "two or more corners [x, y] (meters), each different from the one before"
 
 # A world file has the fields of `World` except its name; at most one of these tables becomes `World.machine`.
 MACHINES: dict[str, type[Model]] = {kind.key: kind.model for kind in KINDS}

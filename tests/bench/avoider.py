@@ -14,7 +14,7 @@ class Avoider(Node):
 
     def __init__(self):
         super().__init__("avoider")
-        self.nearest, self.travelled, self.last = math.inf, 0.0, None
+        self.nearest, self.traveled, self.last = math.inf, 0.0, None
         self.scans = self.odoms = self.commands = 0  # for the benchmark's comparison
         self.create_subscription(LaserScan, "scan", self.on_scan, 10)
         self.create_subscription(Odometry, "odom", self.on_odom, 10)
@@ -30,7 +30,7 @@ class Avoider(Node):
         """Add up the distance."""
         self.odoms += 1
         here = odom.pose.pose.position.x, odom.pose.pose.position.y
-        self.travelled += math.dist(here, self.last or here)
+        self.traveled += math.dist(here, self.last or here)
         self.last = here
 
     def drive(self):

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import nbformat
 
-from grader.checks import travelled
+from grader.checks import traveled
 from grader.exercises import navigator
 from grader.geometry.ground import shortest
 from sim import run
@@ -67,7 +67,7 @@ def drive(main: Callable[[], None], kind: str, seed: int) -> Outcome:
         until=lambda recording: bool(recording.goals) and recording.goals[0].over,
         quiet=True,
     )
-    way = travelled(recording)
+    way = traveled(recording)
     return Outcome(seed, fault(recording), way / shortest(real), way / recording.stamp)
 
 

@@ -85,7 +85,7 @@ def theirs(python: str, segments: np.ndarray, discs: np.ndarray, lidar: LidarMod
 
 
 def disagreement(seen: dict[str, Any], segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> float:
-    """The share of rays in which the two lidars differ by more than a millimetre, from the peer's last pose.
+    """The share of rays in which the two lidars differ by more than a millimeter, from the peer's last pose.
 
     The peer's first and last ray look backwards, both in the same direction. Its discs are polygons.
     """

@@ -25,15 +25,15 @@ COUNT_FRAMES = """
 """
 PIXELS = """canvas => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(
     () => done(canvas.toDataURL()))))"""
-# The colours that cover more than a few pixels of a canvas, as RRGGBB.
-COLOURS = """canvas => {
+# The colors that cover more than a few pixels of a canvas, as RRGGBB.
+COLORS = """canvas => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     const counts = {};
     for (let i = 0; i < data.length; i += 4) {
-        const colour = (data[i] << 16 | data[i + 1] << 8 | data[i + 2]).toString(16).padStart(6, "0");
-        counts[colour] = (counts[colour] || 0) + 1;
+        const color = (data[i] << 16 | data[i + 1] << 8 | data[i + 2]).toString(16).padStart(6, "0");
+        counts[color] = (counts[color] || 0) + 1;
     }
-    return Object.keys(counts).filter((colour) => counts[colour] > 15);
+    return Object.keys(counts).filter((color) => counts[color] > 15);
 }"""
 
 

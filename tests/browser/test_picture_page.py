@@ -18,12 +18,12 @@ from sim.notebook.shared_scripts import SharedScripts
 from sim.view import animate, interactive, plot_path, plot_signal, replay, replay_data
 from sim.view.interactive import plot_script
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import COLOURS, Picture, watch
+from tests.browser.pictures import COLORS, Picture, watch
 from tests.sim.graphs import node
 from tests.students import misfits
 from tests.students.engine.pond import script
 
-TRAIL = "2274c4"  # the colour of a robot's path on a light page
+TRAIL = "2274c4"  # the color of a robot's path on a light page
 pytestmark = pytest.mark.browser
 PAGE = '<!doctype html><meta charset="utf-8"><meta name="color-scheme" content="light dark"><body>'
 
@@ -84,7 +84,7 @@ def test_turtles_come_draw_and_go_in_a_replay(page, tmp_path):
     for share in (0.1, 0.35, 0.45, 0.9):
         picture.scrub(share)
         picture.pixels()
-        seen[share] = {turtle1, turtle2, line, pond} & set(picture.canvas.evaluate(COLOURS))
+        seen[share] = {turtle1, turtle2, line, pond} & set(picture.canvas.evaluate(COLORS))
     assert seen == {
         0.1: {turtle1, pond},
         0.35: {turtle1, turtle2, line, pond},
@@ -145,7 +145,7 @@ def test_topics_have_their_rates(page, rammed, tmp_path):
 
 
 def floor(picture):
-    """The colour of the floor in the middle of the picture: red, green, blue."""
+    """The color of the floor in the middle of the picture: red, green, blue."""
     return picture.canvas.evaluate(
         "c => [...c.getContext('2d').getImageData(c.width * 0.46, c.height * 0.46, 1, 1).data].slice(0, 3)"
     )
@@ -315,7 +315,7 @@ def test_the_picture_zooms_pans_and_follows_by_keys_and_by_the_pointer(page, ram
 def test_the_robot_is_large_enough_to_be_seen_in_a_large_world(page, tmp_path):
     hall = World(name="hall", card="Picture: A large hall.", bounds=(-50.0, -50.0, 50.0, 50.0))
     picture = opened(page, run(world=hall, seconds=1, quiet=True), tmp_path)
-    assert TRAIL in picture.canvas.evaluate(COLOURS)
+    assert TRAIL in picture.canvas.evaluate(COLORS)
 
 
 def test_the_arm_s_tip_draws_its_path(page, tmp_path):
@@ -323,10 +323,10 @@ def test_the_arm_s_tip_draws_its_path(page, tmp_path):
     turning = [Pose(n / 20, 0.0, 0.0, n / 20) for n in range(21)]
     moved = dataclasses.replace(arm, tracks={"upper_arm": turning, "forearm": turning})
     picture = opened(page, moved, tmp_path)
-    assert TRAIL in picture.canvas.evaluate(COLOURS)
+    assert TRAIL in picture.canvas.evaluate(COLORS)
     picture.scrub(0.0)
     picture.pixels()  # after the next paint
-    assert TRAIL not in picture.canvas.evaluate(COLOURS)
+    assert TRAIL not in picture.canvas.evaluate(COLORS)
 
 
 def test_the_graph_is_folded_and_opens_by_the_keyboard(page, tmp_path):
@@ -345,11 +345,11 @@ def test_the_graph_is_folded_and_opens_by_the_keyboard(page, tmp_path):
     (reason,) = graph.locator("li").all_inner_texts()
     assert reason.startswith("/paper waits in vain: nobody publishes on /newz, and /talker has /news.")
     red = drawing.locator(".gap .line").first
-    colour = "path => getComputedStyle(path).stroke"
-    light = red.evaluate(colour)
+    color = "path => getComputedStyle(path).stroke"
+    light = red.evaluate(color)
     page.emulate_media(color_scheme="dark")
-    changed_colour = "(root, light) => getComputedStyle(root.querySelector('.gap .line')).stroke !== light"
-    picture.wait_until(changed_colour, light)
+    changed_color = "(root, light) => getComputedStyle(root.querySelector('.gap .line')).stroke !== light"
+    picture.wait_until(changed_color, light)
     assert page.faults == []
     page.set_viewport_size({"width": 320, "height": 800})
     box = graph.bounding_box()

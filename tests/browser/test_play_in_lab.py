@@ -29,7 +29,7 @@ class Circle(Node):
         self.publisher.publish(twist)
 
 def way(player):
-    "Metres driven so far."
+    "Meters driven so far."
     path = player.recording.path
     return sum(math.dist(a[1:3], b[1:3]) for a, b in zip(path, path[1:]))
 

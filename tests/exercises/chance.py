@@ -11,7 +11,7 @@ import sys
 from unittest import mock
 
 from grader import Exercise, Score
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from grader.programs import LocalPrograms
 from tests.exercises.adversaries import adversary
 from tests.exercises.assignment import first_run

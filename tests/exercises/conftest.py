@@ -13,7 +13,7 @@ def builds_once() -> Iterator[None]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A node's tests are neighbours, so that its runs are made once: see `Evidence`."""
+    """A node's tests are neighbors, so that its runs are made once: see `Evidence`."""
     first: dict[object, int] = {}
     for number, item in enumerate(items):
         first.setdefault(_node(item), number)

@@ -18,7 +18,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from sim import Process
 from sim.ros.messages.codec import message_class
 from tests.exercises.adversaries import Replays, Stub

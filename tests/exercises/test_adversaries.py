@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from tests.exercises.adversaries import KINDS, adversary
 from tests.exercises.assignment import Assignment, is_long
 from tests.exercises.at_times import spun_until

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.catalogue import exercises
+from grader.catalog import exercises
 
 ROOT = Path(__file__).parents[2]
 EXERCISES = ROOT / "grader/exercises"

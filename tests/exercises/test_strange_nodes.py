@@ -57,7 +57,7 @@ NODES = {
     sensing.heading: Says(("/odom", Odometry, 10), {"/heading": Float64}, math.inf, 2.0),
     sensing.gyro: Says(("/imu/data", Imu, 10), {"/heading": Float64}, math.inf, 3.0),
     navigator.compass: Says(("/odom", Odometry, 10), BOTH, math.inf, 2.0),
-    navigator.costmap: Says(("/map", OccupancyGrid, LATCHED), {"/cell_centre": PointStamped}, math.nan, 1.0),
+    navigator.costmap: Says(("/map", OccupancyGrid, LATCHED), {"/cell_center": PointStamped}, math.nan, 1.0),
     navigator.plan: Says(("/goal_pose", PoseStamped, 10), {"/plan": Path}, math.nan, 3.0),
 }
 MAKE = {Float64: lambda value: Float64(data=value), PointStamped: point, Path: path}
@@ -161,7 +161,7 @@ def test_a_costmap_has_as_many_cells_as_its_map():
     ids=lambda value: getattr(value, "name", ""),
 )
 def test_a_run_that_hangs_before_there_is_something_to_judge_misses(check, handed, due):
-    heard = [published("/cell_centre", [(0.0, PointStamped())]), published("/plan", [(0.0, Path())])]
+    heard = [published("/cell_center", [(0.0, PointStamped())]), published("/plan", [(0.0, Path())])]
     cut = dataclasses.replace(
         heard[0],
         published=[*heard[0].published, *heard[1].published],

@@ -1,7 +1,7 @@
 import pytest
 
 import grader
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from tests.students import misfits
 
 

@@ -167,7 +167,7 @@ def test_the_html_is_a_table_without_script_class_or_address():
     assert "http" not in page
 
 
-def test_the_html_survives_sanitising():
+def test_the_html_survives_sanitizing():
     page = Score("talk", MIXED)._repr_html_()
     styles = set(re.findall(r"([a-z-]+): ", " ".join(re.findall(r'style="([^"]+)"', page))))
     parsed = nh3.clean(
@@ -184,14 +184,14 @@ def test_equal_scores_have_equal_html():
 
 
 def test_marks_can_be_read_in_light_and_dark_themes():
-    def luminance(colour):
-        parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    def luminance(color):
+        parts = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
         linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
         return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
 
-    for _, _, colour, background in STATUS_STYLES.values():
-        assert (luminance(background) + 0.05) / (luminance(colour) + 0.05) >= 7
-        assert 1.05 / (luminance(colour) + 0.05) >= 7  # where a sanitizer has removed the background
+    for _, _, color, background in STATUS_STYLES.values():
+        assert (luminance(background) + 0.05) / (luminance(color) + 0.05) >= 7
+        assert 1.05 / (luminance(color) + 0.05) >= 7  # where a sanitizer has removed the background
 
 
 def test_as_dict_is_ready_for_json():
@@ -323,7 +323,7 @@ def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_without_com
     assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
 
 
-def test_the_graph_passes_the_sanitiser_of_the_pages_and_hostile_names_stay_text():
+def test_the_graph_passes_the_sanitizer_of_the_pages_and_hostile_names_stay_text():
     recording = typo()
     recording.graph.nodes.append('/x"><script>steal()</script>')
     page = clean(Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])._repr_html_())

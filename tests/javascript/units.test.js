@@ -103,14 +103,14 @@ test("the far end of an arm is computed from its last link", () => {
 
 test("strokes are visible from their first point until they are erased", () => {
   const points = [[1, 0, 0], [2, 1, 0], [3, 2, 0]];
-  const drawing = { grounds: [{ stamp: 0, colour: "#000000" }], strokes: [{ colour: "#ffffff", width: 1, erased: 4, points }] };
+  const drawing = { grounds: [{ stamp: 0, color: "#000000" }], strokes: [{ color: "#ffffff", width: 1, erased: 4, points }] };
   assert.deepEqual([0, 1, 2.5, 4].map((time) => visibleAt(drawing, time).strokes.map((stroke) => stroke.points.length)), [[], [1], [2], []]);
 });
 
 test("a legend names what is in a world besides walls and one robot", () => {
-  const look = { robots: ["blue", "violet"], goal: "gold", edge: "grey", person: "red", rim: "brown" };
+  const look = { robots: ["blue", "violet"], goal: "gold", edge: "gray", person: "red", rim: "brown" };
   const world = { ...WORLD, goal: [1, 1], places: [["desk", [0, 0]]], bodies: [...WORLD.bodies, { name: "visitor", kind: "person" }] };
-  assert.deepEqual(legendOf(world, look).map(([, colour, name]) => `${colour} ${name}`), ["gold goal", "grey obstacle", "red person", "brown named place"]);
+  assert.deepEqual(legendOf(world, look).map(([, color, name]) => `${color} ${name}`), ["gold goal", "gray obstacle", "red person", "brown named place"]);
   assert.deepEqual(legendOf({ ...WORLD, circles: [], places: [] }, look), []);
 });
 

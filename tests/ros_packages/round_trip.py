@@ -23,7 +23,7 @@ from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
 TIMEOUT = float(sys.argv[1])
-PAUSE = 20  # a goal of more numbers waits there to be cancelled
+PAUSE = 20  # a goal of more numbers waits there to be canceled
 
 
 class Server(Node):
@@ -117,7 +117,7 @@ def wait(future):
 
 def use(client):
     counted, steps = client.run(Fibonacci, "count", Fibonacci.Goal(order=8), feedbacks=6)
-    cancelled, _ = client.run(Fibonacci, "count", Fibonacci.Goal(order=40), feedbacks=2, cancel=True)
+    canceled, _ = client.run(Fibonacci, "count", Fibonacci.Goal(order=40), feedbacks=2, cancel=True)
     goal = NavigateToPose.Goal(behavior_tree="none.xml")
     goal.pose.header.frame_id, goal.pose.pose.position.x = "map", 2.5
     driven, shown = client.run(NavigateToPose, "drive", goal, feedbacks=1)
@@ -126,9 +126,9 @@ def use(client):
         "sum": client.add(2**40, 3),
         "count": [counted.status == GoalStatus.STATUS_SUCCEEDED, list(counted.result.sequence)],
         "steps": [list(step.sequence) for step in steps],
-        "cancelled": [
-            cancelled.status == GoalStatus.STATUS_CANCELED,
-            len(cancelled.result.sequence) <= PAUSE,
+        "canceled": [
+            canceled.status == GoalStatus.STATUS_CANCELED,
+            len(canceled.result.sequence) <= PAUSE,
         ],
         "drive": [
             driven.status == GoalStatus.STATUS_ABORTED,

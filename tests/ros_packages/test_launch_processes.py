@@ -215,13 +215,13 @@ def test_one_program_can_be_told_to_end_or_be_given_a_signal(launched):
     waits = f"import time\ntry: time.sleep({PATIENCE})\nexcept KeyboardInterrupt: pass"
     first, second = python("print('ready')\n" + waits, output="both"), python(waits)
     ends = EmitEvent(event=ShutdownProcess(process_matcher=matches_action(first)))
-    signalled = EmitEvent(
+    signaled = EmitEvent(
         event=SignalProcess(signal_number="SIGTERM", process_matcher=matches_action(second))
     )
     status, lines = launched(
         first,
         second,
-        RegisterEventHandler(OnProcessStart(target_action=second, on_start=[signalled])),
+        RegisterEventHandler(OnProcessStart(target_action=second, on_start=[signaled])),
         RegisterEventHandler(OnProcessExit(target_action=second, on_exit=[ends])),
     )
     assert status == 0

@@ -15,7 +15,7 @@ def field(name: str, offset: int, datatype: int = PointField.FLOAT32, count: int
     return PointField(name=name, offset=offset, datatype=datatype, count=count)
 
 
-COLOURED = [field("x", 0), field("rgb", 4, PointField.UINT8, 3), field("ring", 8, PointField.UINT16)]
+COLORED = [field("x", 0), field("rgb", 4, PointField.UINT8, 3), field("ring", 8, PointField.UINT16)]
 
 
 def refusal(call, *arguments, **options) -> str:
@@ -75,14 +75,14 @@ def test_points_are_picked_by_their_places(places):
 
 def test_points_of_several_types_come_back_as_named_columns_and_as_named_tuples():
     points = [(0.5, 255, 128, 0, 7), (1.5, 1, 2, 3, 8)]
-    cloud = point_cloud2.create_cloud(HEADER, COLOURED, points, point_step=16)
+    cloud = point_cloud2.create_cloud(HEADER, COLORED, points, point_step=16)
     assert (cloud.point_step, cloud.row_step, len(cloud.data)) == (16, 32, 32)
     read = point_cloud2.read_points(cloud)
     assert read.dtype.names == ("x", "rgb_0", "rgb_1", "rgb_2", "ring")
     assert read["rgb_1"].tolist() == [128, 2]
     first, second = point_cloud2.read_points_list(cloud)
     assert (tuple(first), second.x, second.ring) == (points[0], 1.5, 8)
-    assert point_cloud2.create_cloud(HEADER, COLOURED, read, point_step=16) == cloud
+    assert point_cloud2.create_cloud(HEADER, COLORED, read, point_step=16) == cloud
 
 
 def test_an_organized_cloud_keeps_its_two_axes():
@@ -106,14 +106,14 @@ def test_a_field_without_a_name_gets_one():
 
 def test_what_does_not_fit_is_refused_with_the_reason():
     cloud = point_cloud2.create_cloud_xyz32(HEADER, XYZ)
-    mixed = point_cloud2.create_cloud(HEADER, COLOURED, [])
+    mixed = point_cloud2.create_cloud(HEADER, COLORED, [])
     assert refusal(point_cloud2.read_points, cloud, ["x", "t"]) == (
         "The cloud has no field 't', it has x, y, z."
     )
     assert refusal(point_cloud2.read_points_numpy, mixed) == (
         "The fields are of more than one type: name those of one, or use read_points()."
     )
-    assert refusal(point_cloud2.create_cloud, HEADER, COLOURED, XYZ) == (
+    assert refusal(point_cloud2.create_cloud, HEADER, COLORED, XYZ) == (
         "The fields are of more than one type: give the points as a structured array."
     )
     structured = point_cloud2.read_points(cloud)

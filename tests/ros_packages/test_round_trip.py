@@ -13,8 +13,8 @@ def test_an_action_gives_feedback_and_a_result(came_back):
     assert came_back["steps"] == [numbers[:length] for length in range(3, 9)]
 
 
-def test_an_action_can_be_cancelled(came_back):
-    assert came_back["cancelled"] == [True, True]
+def test_an_action_can_be_canceled(came_back):
+    assert came_back["canceled"] == [True, True]
 
 
 def test_a_navigation_goal_goes_there_and_its_feedback_and_error_come_back(came_back):

@@ -39,7 +39,7 @@ LESSONS = tuple(sorted(path.parent.name for path in ROOT.glob("course/*/lesson.i
 CATEGORIES = {
     "fact": "explains something: no program keeps or breaks it",
     "notebook": "is about the course's own tools, such as `run` and its pictures",
-    "judgement": "is about designing, reading or looking for faults: it leaves no trace in a run",
+    "judgment": "is about designing, reading or looking for faults: it leaves no trace in a run",
     "elsewhere": "is about hardware, terminals, networks or real time, which graded runs don't have",
     "no exercise": "could be seen in a run, but no exercise asks for it",
     "not yet": "will have a check soon",

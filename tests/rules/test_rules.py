@@ -123,11 +123,11 @@ def test_a_row_that_does_not_hold_says_why(changes, sentence):
     ("unchecked", "sentence"),
     [
         ("fact", ""),
-        ("judgement: nobody sees it", ""),
-        ("judgement", "Why is it “judgement”? Write a reason behind a colon"),
+        ("judgment: nobody sees it", ""),
+        ("judgment", "Why is it “judgment”? Write a reason behind a colon"),
         (
             "lazy: no time",
-            "“lazy” is none of the reasons: fact, notebook, judgement, elsewhere, no exercise, not yet",
+            "“lazy” is none of the reasons: fact, notebook, judgment, elsewhere, no exercise, not yet",
         ),
     ],
 )
@@ -152,7 +152,7 @@ def test_a_key_that_rows_do_not_have_is_an_error():
 def test_the_source_of_a_node_has_all_that_it_uses():
     assert "class Heart(Node)" in source_of("nodes", "heart", "main_with_arguments")
     assert "LoopsInInit" not in source_of("nodes", "heart", "main_with_arguments")
-    assert "return Process(OneMetre" in source_of("topics", "remapping", "as_task_says")
+    assert "return Process(OneMeter" in source_of("topics", "remapping", "as_task_says")
     assert "DurabilityPolicy.TRANSIENT_LOCAL" in source_of("silence", "late", "main_without_a_class")
     assert "heapq.heappush" in source_of("navigator", "plan", "Planner")
     assert "namespace=side" in source_of("packages", "convoy", "Convoy")

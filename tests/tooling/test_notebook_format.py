@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.notebook_format import InvalidNotebook, cell_ids, main, normalised
+from grader.notebook_format import InvalidNotebook, cell_ids, main, normalized
 
 ROOT = Path(__file__).parents[2]
 
@@ -26,7 +26,7 @@ def test_outputs_counts_and_widget_state_go():
     output = {"output_type": "stream", "name": "stdout", "text": "2"}
     ran = code(id="a", outputs=[output], execution_count=7, metadata={"execution": {"shell.reply": "now"}})
     messy = text_of(ran, metadata={"widgets": {"state": 1}, "kernelspec": {"name": "conda-env"}})
-    tidy = json.loads(normalised(messy, "x.ipynb"))
+    tidy = json.loads(normalized(messy, "x.ipynb"))
     assert tidy["cells"] == [code(["1 + 1"], id="a")]
     assert tidy["metadata"]["kernelspec"]["name"] == "python3"
     assert set(tidy["metadata"]) == {"kernelspec", "language_info"}
@@ -34,13 +34,13 @@ def test_outputs_counts_and_widget_state_go():
 
 def test_what_somebody_meant_stays():
     metadata = {"tags": ["hide"], **graded("test_counter"), "editable": False, "deletable": False}
-    tidy = json.loads(normalised(text_of(code(metadata=metadata)), "x.ipynb"))
+    tidy = json.loads(normalized(text_of(code(metadata=metadata)), "x.ipynb"))
     assert tidy["cells"][0]["metadata"] == metadata
 
 
-def test_normalising_twice_changes_nothing():
-    once = normalised(text_of(code(), code(metadata=graded("b"))), "x.ipynb")
-    assert normalised(once, "x.ipynb") == once
+def test_normalizing_twice_changes_nothing():
+    once = normalized(text_of(code(), code(metadata=graded("b"))), "x.ipynb")
+    assert normalized(once, "x.ipynb") == once
     assert once.endswith("}\n")
 
 
@@ -48,7 +48,7 @@ def test_the_order_of_keys_does_not_matter():
     cell = code(id="a", metadata={"tags": ["t"], "editable": True})
     turned = {key: cell[key] for key in reversed(cell)}
     turned["metadata"] = {"editable": True, "tags": ["t"]}
-    assert normalised(text_of(cell), "x.ipynb") == normalised(text_of(turned), "x.ipynb")
+    assert normalized(text_of(cell), "x.ipynb") == normalized(text_of(turned), "x.ipynb")
 
 
 def test_a_missing_id_comes_from_the_grade_id_or_a_number():
@@ -68,14 +68,14 @@ def test_a_copied_cell_gets_an_id_of_its_own():
 
 def test_the_command_names_what_differs_then_repairs_it(tmp_path, capsys):
     path = tmp_path / "lesson.ipynb"
-    path.write_text(normalised(text_of(code(id="a")), "").replace('_count": null', '_count": 3'))
+    path.write_text(normalized(text_of(code(id="a")), "").replace('_count": null', '_count": 3'))
     assert main(["--check", str(tmp_path)]) == 1
     shown = capsys.readouterr().out
-    assert shown.startswith(f"not normalised: {path}\n")
+    assert shown.startswith(f"not normalized: {path}\n")
     assert '    -   "execution_count": 3,\n    +   "execution_count": null,\n' in shown
     assert shown.endswith("Run `make tidy` and commit what it changes.\n")
     assert main([str(tmp_path)]) == 0
-    assert capsys.readouterr().out.startswith(f"normalised: {path}\n")
+    assert capsys.readouterr().out.startswith(f"normalized: {path}\n")
     assert main(["--check", str(tmp_path)]) == 0
     assert capsys.readouterr().out == ""
 
@@ -89,7 +89,7 @@ def test_a_long_difference_is_cut(tmp_path, capsys):
 
 def test_a_missing_newline_is_named(tmp_path, capsys):
     path = tmp_path / "lesson.ipynb"
-    path.write_text(normalised(text_of(code(id="a")), "").rstrip("\n"))
+    path.write_text(normalized(text_of(code(id="a")), "").rstrip("\n"))
     assert main(["--check", str(path)]) == 1
     assert "    the file should end with one newline\n" in capsys.readouterr().out
 
@@ -108,7 +108,7 @@ def test_a_missing_newline_is_named(tmp_path, capsys):
 )
 def test_a_file_that_is_no_notebook_is_refused_with_a_reason(text, words):
     with pytest.raises(InvalidNotebook) as refused:
-        normalised(text, "x.ipynb")
+        normalized(text, "x.ipynb")
     assert str(refused.value) == words
 
 

@@ -11,7 +11,7 @@ from grader.responses import EDGE
 from sim.evidence import Goal, Recording
 
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-NEAR = 0.15  # metres
+NEAR = 0.15  # meters
 
 square = Exercise("square_by_actions", "A square out of actions", world="yard", seconds=50,
                   companions=[DriveServer, SpinServer], may_end=True)

@@ -3,7 +3,7 @@
 import functools
 from typing import Any
 
-from grader.checks import Missed, nearest_person, shift, travelled
+from grader.checks import Missed, nearest_person, shift, traveled
 from grader.checks.check import Hints
 from grader.checks.motion import after_a_touch, stood_still
 from grader.checks.shift import Job
@@ -23,7 +23,7 @@ IDLE = {
     "None of your programs publishes on /cmd_vel. Does your list hold all of them?":
         lambda run: all(row.from_course for row in run.messages("/cmd_vel")),
     "The robot never moves. Run each program alone, and look at what it publishes, and when.":
-        lambda run: travelled(run) < 0.1,
+        lambda run: traveled(run) < 0.1,
     "{touch}": lambda run: run.contacts and {"touch": after_a_touch(run)},
 }
 """The usual reasons for a robot that doesn't deliver at all."""

@@ -73,7 +73,7 @@ def publishes_both(run: Recording) -> None:
     "Print x, y and yaw in the callback, and work one out by hand.": lambda run, answers: True,
 })
 def publishes_the_distance(run: Recording) -> None:
-    """/goal/distance is the distance from the robot to (5, 5), in metres, within 5 cm."""
+    """/goal/distance is the distance from the robot to (5, 5), in meters, within 5 cm."""
     _agrees(_answers(run, DISTANCE), _distance, 0.05, "m")
     lasts(run, DISTANCE)
 

@@ -1,4 +1,4 @@
-"""Cells and metres of a map, and walls that are made thicker by the robot's size."""
+"""Cells and meters of a map, and walls that are made thicker by the robot's size."""
 
 import math
 from collections.abc import Callable
@@ -18,14 +18,14 @@ from sim.evidence import Recording
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 COSTMAP = "/global_costmap/costmap"
-RADIUS = 0.2  # metres by which walls are to be thicker
+RADIUS = 0.2  # meters by which walls are to be thicker
 
 costmap = Exercise(
     "costmap", "Cells and walls", world=partial(world_of, "clutter"), seconds=8, seeds=(4, 9),
     companions=lambda seed: [made_for(node, world=world_of("clutter", seed))
                              for node in (MapServer, PointClicker)],
 )
-clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
+clicks = Stimuli("/clicked_point", answered_on="/cell_center", within=0.45)
 
 
 @costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.", hints={
@@ -58,7 +58,7 @@ def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     return given, made
 
 
-def _centre(info: Any, point: Point, whole: Callable[[float], float] = math.floor,
+def _center(info: Any, point: Point, whole: Callable[[float], float] = math.floor,
             offset: float = 0.5) -> Point:
     corner = info.origin.position
     return tuple(
@@ -72,7 +72,7 @@ def _without_origin(info: Any, point: Point) -> Point:
 
 
 def _origin_half_way(info: Any, point: Point) -> Point:
-    x, y = _centre(info, point)
+    x, y = _center(info, point)
     return x - info.origin.position.x, y - info.origin.position.y
 
 
@@ -91,23 +91,23 @@ def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
         _all_are(_without_origin),
     "Add the map's origin again in to_point.": _all_are(_origin_half_way),
     "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.":
-        _all_are(lambda info, point: _centre(info, point, offset=0.0)),
+        _all_are(lambda info, point: _center(info, point, offset=0.0)),
     "round() takes the nearest cell, which may be the next one: use math.floor().":
-        _all_are(lambda info, point: _centre(info, point, round)),
+        _all_are(lambda info, point: _center(info, point, round)),
     "A column and a row are whole numbers: math.floor() rounds down.":
-        _all_are(lambda info, point: _centre(info, point, lambda value: value)),
+        _all_are(lambda info, point: _center(info, point, lambda value: value)),
     "x belongs to the column and y to the row; here they are swapped.":
-        _all_are(lambda info, point: _centre(info, point)[::-1]),
+        _all_are(lambda info, point: _center(info, point)[::-1]),
 }, guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down.")
 def answers_clicks(run: Recording, given: Any) -> None:
-    """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
-    publishes(run, "/cell_centre", "geometry_msgs/msg/PointStamped")
+    """Each /clicked_point is answered on /cell_center with the middle of its cell."""
+    publishes(run, "/cell_center", "geometry_msgs/msg/PointStamped")
     sent = clicks(run)
     known = min((row.stamp for row in run.received("/map")), default=0.0)  # earlier ones can have no answer
     sent = [click for click in sent if click.stamp >= known] or sent
-    wrong = [click for click in sent if not _is_answered(click, _centre(given.info, _point(click)))]
+    wrong = [click for click in sent if not _is_answered(click, _center(given.info, _point(click)))]
     if wrong:
-        (x, y), right = _point(wrong[0]), _centre(given.info, _point(wrong[0]))
+        (x, y), right = _point(wrong[0]), _center(given.info, _point(wrong[0]))
         after = f"after the click on ({x:.3f}, {y:.3f}) m at {wrong[0].stamp:.3g} s"
         saw = "({:.3f}, {:.3f})".format(*_first(wrong[0])) if wrong[0].responses else "no answer"
         saw += f"; {len(wrong)} of {len(sent)} are wrong" if len(wrong) > 1 else ""

@@ -2,7 +2,7 @@
 
 import math
 
-from grader.checks import Missed, publishes, series, tenths, travelled
+from grader.checks import Missed, publishes, series, tenths, traveled
 from grader.checks.motion import arrives, ends_with_a_stop, length, stands_still
 from grader.exercise import Exercise
 from grader.responses import Window, closest
@@ -10,7 +10,7 @@ from grader.worlds.rooms import yard_from
 from sim.evidence import Recording
 
 GOAL = (5.0, 5.0)
-NEAR, STOP = 0.2, 0.1  # metres
+NEAR, STOP = 0.2, 0.1  # meters
 
 drive = Exercise("drive", "To the goal", world=yard_from, seconds=60, seeds=(1, 2), may_end=True)
 
@@ -44,13 +44,13 @@ def sends_velocities(run: Recording) -> None:
     "The commands stopped too early. Send one with each /odom, until the robot is there.":
         lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1,
     "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.":
-        lambda run: travelled(run) < 0.5,
+        lambda run: traveled(run) < 0.5,
     "It was commanded to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.":
         lambda run: _speeds(run)[-1] == 0.0 and run.path[-1]._asdict(),
     "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.":
-        lambda run: travelled(run) > _straight(run),
+        lambda run: traveled(run) > _straight(run),
     "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.":
-        lambda run: {"way": travelled(run), "time": run.ended.stamp},
+        lambda run: {"way": traveled(run), "time": run.ended.stamp},
 })
 def gets_there(run: Recording) -> None:
     """The robot comes within 20 cm of (5, 5)."""

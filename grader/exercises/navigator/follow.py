@@ -15,17 +15,17 @@ from grader.geometry.ground import drivable
 from grader.worlds.rooms import world_of
 from sim.evidence import Recording
 
-NEAR = 0.15  # metres from the path's end
-# Metres from the path: pure pursuit stays within 9 cm in all worlds, and within 7 cm in a maze. With half the
+NEAR = 0.15  # meters from the path's end
+# Meters from the path: pure pursuit stays within 9 cm in all worlds, and within 7 cm in a maze. With half the
 # curvature it swings out of a maze's corners by 13 cm or more.
 OFF = 0.12
-LOST = 0.4  # metres from the path: what the robot passes farther away is not covered
+LOST = 0.4  # meters from the path: what the robot passes farther away is not covered
 CORNERS = ("Where it cuts a corner, look less far ahead. Where it swings out of one, it turns too little: "
            "curvature = 2 * sin(bearing) / distance, and on the spot while the bearing is above 1 rad, to "
            "both sides.")
 FASTEST = 1.0  # m/s that a student may want
-AHEAD = 0.3  # metres: how far ahead of the robot the assignment steers for
-NEXT = 1.0  # metres of the path in which its next point is looked for
+AHEAD = 0.3  # meters: how far ahead of the robot the assignment steers for
+NEXT = 1.0  # meters of the path in which its next point is looked for
 
 
 def _settled(run: Recording) -> bool:

@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from grader.checks import Missed, cancels, has_no_contacts, series, serves_action, tenths, travelled
+from grader.checks import Missed, cancels, has_no_contacts, series, serves_action, tenths, traveled
 from grader.checks.motion import after_a_touch, is_hopeless, length
 from grader.checks.navigation import ACTION, TYPE, end_of, feedback_faults, goals_from_course, to_go
 from grader.companions.goals import GoalClient
@@ -16,7 +16,7 @@ from grader.worlds.rooms import blocked, world_of
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 from sim.world import World
 
-NEAR = 0.25  # metres; as Nav2's goal checker
+NEAR = 0.25  # meters; as Nav2's goal checker
 RIGHT, POOR = 1.35, 2.0  # times the shortest way: full points, no points
 SLOW = 0.15  # m/s; on the shortest way, so that there is time for turns and detours
 FEEDBACK = 2.0  # seconds between two messages at most
@@ -80,7 +80,7 @@ def _succeeded(goal: Goal, left: float) -> bool:
 
 
 def _stands(run: Recording) -> bool:
-    return travelled(run) < 0.05
+    return traveled(run) < 0.05
 
 
 ARRIVES: dict[str, Callable[..., Any]] = {

@@ -18,7 +18,7 @@ from grader.worlds.rooms import world_of
 from sim.evidence import Recording, Seconds
 
 WITHIN = 2.0  # s from a goal to its path; the next goal comes later
-GAP = 0.15  # metres between two points of a path
+GAP = 0.15  # meters between two points of a path
 RIGHT, POOR = 1.1, 1.5  # times the shortest path: full points, no points
 
 

@@ -2,12 +2,12 @@
 
 import math
 
-from grader.checks import Missed, keeps_clear, otherwise, publishes, series, travelled, until_a_touch
+from grader.checks import Missed, keeps_clear, otherwise, publishes, series, traveled, until_a_touch
 from grader.exercise import Exercise
 from grader.worlds.rooms import furnished_room
 from sim.evidence import Recording
 
-FAR, LONG = 1.0, 4.0  # metres: from the start, and of the path
+FAR, LONG = 1.0, 4.0  # meters: from the start, and of the path
 BESIDE = ("It hit something with its side. Look in a wider sector, at least 30 degrees to each side, for "
           "the robot is 20 cm wide. And while it turns, linear.x should be 0.")
 AHEAD = ("Look ahead in every scan: the rays from -30 to 30 degrees lie at both ends of msg.ranges. When "
@@ -47,7 +47,7 @@ def wanders_off(run: Recording) -> None:
 })
 def drives_on(run: Recording) -> None:
     """It does not get stuck: in 60 s it comes 4 m far, or more."""
-    way = travelled(until_a_touch(run))
+    way = traveled(until_a_touch(run))
     if way < LONG:
         credit = 0.7 * way / LONG if way > 1.0 else 0.0
         raise Missed(f"a way of {LONG:g} m", f"{way:.2f} m", credit=credit, picture="path", about=(way,))

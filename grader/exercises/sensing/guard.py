@@ -22,7 +22,7 @@ from sim.evidence import Recording, Seconds, since_start, stamps
 RAW, LIDAR = "/cmd_vel_raw", "/lidar"
 STEP = 0.1  # seconds between the moments that are looked at
 FRESH = 0.2  # seconds: younger commands and scans are good for sure
-FREE, BLOCKED = 1.0, 0.45  # metres ahead: the limit is 0.5 m
+FREE, BLOCKED = 1.0, 0.45  # meters ahead: the limit is 0.5 m
 ENOUGH = 5  # moments
 SETTLING = 1.0  # seconds to notice that something is old, and to brake
 

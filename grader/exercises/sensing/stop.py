@@ -5,7 +5,7 @@ from grader.exercise import Exercise
 from grader.worlds.rooms import hall
 from sim.evidence import Recording
 
-STOP_AT = 1.0  # metres before the wall
+STOP_AT = 1.0  # meters before the wall
 
 stop = Exercise("stop", "Stop before the wall", world=hall, seconds=30, seeds=(1, 2))
 
@@ -34,11 +34,11 @@ def sets_off(run: Recording) -> None:
 
 
 @stop.check(4, after=sets_off, hints={
-    "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).":
+    "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).":
         lambda run, gap: gap > STOP_AT,
     "That is late for a robot at 0.3 m/s: is a zero sent at once, in the same callback?":
         lambda run, gap: gap > STOP_AT - 0.25,
-    "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": otherwise,
+    "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).": otherwise,
 })
 def stops_in_time(run: Recording) -> None:
     """It stops when the wall is nearer than 1 m, and at once."""
@@ -50,7 +50,7 @@ def stops_in_time(run: Recording) -> None:
         raise Missed("a stop before the wall", saw, hint, picture="path", unsafe=True)
     if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
         expected = ("a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few "
-                    "centimetres")
+                    "centimeters")
         raise Missed(expected, f"it ends {gap:.2f} m before the wall", picture="path", about=(gap,))
 
 

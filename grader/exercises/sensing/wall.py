@@ -4,13 +4,13 @@ import itertools
 import math
 import statistics
 
-from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, travelled, until_a_touch
+from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, traveled, until_a_touch
 from grader.diagnosis.driving import refused_command
 from grader.exercise import Exercise
 from grader.worlds.rooms import MARGIN, gallery
 from sim.evidence import Pose, Recording
 
-NEAR, FAR = 0.3, 0.8  # metres from the wall
+NEAR, FAR = 0.3, 0.8  # meters from the wall
 SETTLED = 3.0  # seconds
 SHARE = 0.9  # of the time
 
@@ -35,8 +35,8 @@ def _goes_the_other_way(run: Recording) -> bool:
 def leaves_the_start(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
-    if travelled(run) < 0.5:
-        raise Missed("a robot that drives", f"a way of {travelled(run):.2f} m", picture="path")
+    if traveled(run) < 0.5:
+        raise Missed("a robot that drives", f"a way of {traveled(run):.2f} m", picture="path")
 
 
 @wall.check(4, after=leaves_the_start, hints={
@@ -52,7 +52,7 @@ def leaves_the_start(run: Recording) -> None:
     "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].":
         _goes_the_other_way,
     "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.":
-        lambda run: travelled(run) < 10.0,
+        lambda run: traveled(run) < 10.0,
     "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays at "
     "0.5 m.": lambda run: True,
 })

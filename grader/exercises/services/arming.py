@@ -4,7 +4,7 @@ import itertools
 import math
 import re
 
-from grader.checks import Missed, ends_with_a_stop, offers, otherwise, series, travelled, wrong_response
+from grader.checks import Missed, ends_with_a_stop, offers, otherwise, series, traveled, wrong_response
 from grader.checks.services import call_text, course_calls, is_success, response_fields
 from grader.companions.service_clients import Pilot
 from grader.exercise import Exercise
@@ -13,7 +13,7 @@ from sim.evidence import Call, Recording
 ARM = "/arm"
 CALLS = 6  # that the pilot makes
 SPEED = 0.3  # m/s
-STILL, JUST = 0.01, 0.3  # metres, seconds
+STILL, JUST = 0.01, 0.3  # meters, seconds
 INVERTED = "Each call did the opposite of what it asked for: self.armed = request.data."
 SWITCHES = "Each call switches over, whatever it asks for: write self.armed = request.data."
 NOT_YET = "A robot must not start by itself: self.armed = False in __init__, and drive looks at it."
@@ -66,7 +66,7 @@ def drives_while_armed(run: Recording) -> None:
     for call, phase in _phases(run, armed=True):
         # From the first pose to the last: they are up to 50 ms inside the phase, which may be short.
         seconds = phase.path[-1].stamp - phase.path[0].stamp if phase.path else 0.0
-        speed = travelled(phase) / seconds if seconds else 0.0
+        speed = traveled(phase) / seconds if seconds else 0.0
         if not math.isclose(speed, SPEED, rel_tol=0.15):
             expected, saw = f"{SPEED} m/s after {call_text(call)}", f"{speed:.2g} m/s"
             raise Missed(expected, saw, picture="path", about=(call,))
@@ -87,12 +87,12 @@ def _begins_when_armed(run: Recording) -> None:
         if call.request.data and not before.request.data:
             begin = max(before.requested + SETTLING, call.requested - JUST)
             armed = run.during(made[1].requested + SETTLING, made[2].requested)
-            hint = INVERTED if _is_inverted(run) else NO_MORE if travelled(armed) > 10 * STILL else SWITCHES
+            hint = INVERTED if _is_inverted(run) else NO_MORE if traveled(armed) > 10 * STILL else SWITCHES
             _stands(run.during(begin, call.requested), f"until {call_text(call)}", hint)
 
 
 def _stands(phase: Recording, when: str, hint: str) -> None:
-    driven = travelled(phase)
+    driven = traveled(phase)
     if driven > STILL:
         expected, saw = f"a robot that stands still {when}", f"it moved {driven:.2f} m"
         raise Missed(expected, saw, hint, picture="path", unsafe=True)
@@ -130,4 +130,4 @@ def _commands(run: Recording, field: str) -> bool:
 
 def _drives_before_the_second_call(run: Recording, call: Call) -> bool:
     first, second = course_calls(run, ARM, CALLS)[:2]
-    return bool(_before(run, call)) and travelled(run.during(first.requested, second.requested)) > 0.1
+    return bool(_before(run, call)) and traveled(run.during(first.requested, second.requested)) > 0.1

@@ -4,7 +4,7 @@ import itertools
 import math
 import re
 
-from grader.checks import Missed, keeps_clear, publishes, series, tenths, travelled
+from grader.checks import Missed, keeps_clear, publishes, series, tenths, traveled
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from sim.evidence import Recording, stamps
@@ -64,7 +64,7 @@ def drives_the_circle(run: Recording) -> None:
     turns = any(turn for _, turn in series(run, COMMANDS, "angular.z"))
     keeps_clear(run, WIDE if turns else STRAIGHT)
     far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
-    turned, length = _turned(run), travelled(run)
+    turned, length = _turned(run), traveled(run)
     if max(far) > NEAR or not _is_round(run):
         way = f"a way of {math.tau * RADIUS:.2f} m round a circle"
         saw = f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
@@ -92,7 +92,7 @@ def _turned(run: Recording) -> float:
 
 def _is_round(run: Recording) -> bool:
     """Whether the robot came once round a circle, whatever its radius is."""
-    return _turned(run) >= ROUND and travelled(run) >= ROUND * RADIUS
+    return _turned(run) >= ROUND and traveled(run) >= ROUND * RADIUS
 
 
 def _how_to_read(wrong: str) -> str:

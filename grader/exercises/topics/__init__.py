@@ -1,6 +1,6 @@
 """The exercises of 02_topics, from a publisher in one line to a robot that drives a square."""
 
-from grader.companions.one_metre import OneMetre
+from grader.companions.one_meter import OneMeter
 from grader.companions.random_publishers import Chatterbox, CommandSender
 from grader.exercises.topics.chatters import chatters
 from grader.exercises.topics.commands import commands

@@ -21,9 +21,9 @@ def odometry_reaches_the_node(run: Recording) -> None:
 
 
 @remapping.check(4, after=(commands_reach_the_robot, odometry_reaches_the_node),
-                 guess="OneMetre does this by itself, once both names are right.")
-def drives_one_metre(run: Recording) -> None:
-    """The robot drives one metre straight on and stops there."""
+                 guess="OneMeter does this by itself, once both names are right.")
+def drives_one_meter(run: Recording) -> None:
+    """The robot drives one meter straight on and stops there."""
     arrives(run, (1.0, 0.0), tolerance=0.1)
     stands_still(run)
     ends_with_a_stop(run)

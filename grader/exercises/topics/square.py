@@ -4,14 +4,14 @@ import itertools
 import math
 
 from grader.checks import Missed, follows, publishes, series
-from grader.checks.motion import arrives, ends_with_a_stop, passes, stands_still, travelled
+from grader.checks.motion import arrives, ends_with_a_stop, passes, stands_still, traveled
 from grader.exercise import Exercise
 from grader.responses import closest
 from sim.evidence import Recording, stamps
 
 square = Exercise("square", "A square", world="yard", seconds=60, may_end=True, extra_allowed=True)
 START, CORNERS = (0.0, 0.0), [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-NEAR = 0.15  # metres
+NEAR = 0.15  # meters
 TIMEOUT = 0.5  # seconds after which the robot stops without a command
 
 
@@ -42,7 +42,7 @@ def passes_the_corners(run: Recording) -> None:
 @square.check(3, after=passes_the_corners, guess="The picture shows where it leaves the square.")
 def keeps_to_the_line(run: Recording) -> None:
     """On its way the robot stays within 15 cm of the square's sides."""
-    length = travelled(run)
+    length = traveled(run)
     if length < 3.0:
         expected, saw = "a way along all four sides, 4 m", f"a way of {length:.2f} m"
         raise Missed(expected, saw, "Drive the whole square first.", picture="path")

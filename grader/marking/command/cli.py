@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
 from grader.marking.command.mark_class import OpenPool, Outcome, Settings, mark_class
-from grader.marking.command.summary import summarise
+from grader.marking.command.summary import summarize
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.cores import usable_cores
@@ -99,7 +99,7 @@ def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[TaskPo
 
 
 def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:
-    summary = summarise(options.assignment, outcome.worth, outcome.results, outcome.standings, outcome.notes)
+    summary = summarize(options.assignment, outcome.worth, outcome.results, outcome.standings, outcome.notes)
     if outcome.results:
         print(as_text(summary))
     if outcome.due:

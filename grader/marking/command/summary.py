@@ -1,4 +1,4 @@
-"""Summarises a marked class for the instructor: points, common mistakes, times, what to look at."""
+"""Summarizes a marked class for the instructor: points, common mistakes, times, what to look at."""
 import math
 import re
 import statistics
@@ -79,14 +79,14 @@ class Summary:
         return any(row.late for row in self.rows)
 
 
-def summarise(
+def summarize(
     assignment: str,
     worth: Mapping[tuple[str, str], float],
     results: Mapping[str, Result],
     standings: Mapping[str, Standing] | None = None,
     notes: Iterable[tuple[str, str]] = (),
 ) -> Summary:
-    """Summarise the results of a class. worth: points by notebook and cell. results: by student.
+    """Summarize the results of a class. worth: points by notebook and cell. results: by student.
 
     standings: what the gradebook says of these students. notes: further concerns, of whom and what.
     """

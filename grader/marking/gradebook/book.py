@@ -21,7 +21,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.course import Course
-from grader.marking.gradebook.student_standings import Standing, extend, penalise, read_standings
+from grader.marking.gradebook.student_standings import Standing, extend, penalize, read_standings
 from grader.marking.result import CellResult, Result
 
 PATIENCE = 60.0  # seconds to wait for a locked SQLite file, if its address has no timeout
@@ -116,7 +116,7 @@ class Book:
             for submission in submissions:
                 extend(submission, extensions or {}, ended)
                 for notebook in submission.notebooks:
-                    penalise(self._app, book, submission, notebook)
+                    penalize(self._app, book, submission, notebook)
             book.db.expire_all()
             return read_standings(submissions)
 
@@ -151,7 +151,7 @@ class Book:
             submission = book.find_submission(result.assignment, result.student)
             for notebook in submission.notebooks:
                 _enter(notebook, result, _graded_cells(pages.get(notebook.name)))
-                penalise(self._app, book, submission, notebook)
+                penalize(self._app, book, submission, notebook)
 
     @contextlib.contextmanager
     def _transaction(self) -> Iterator[Gradebook]:

@@ -55,7 +55,7 @@ class StudentPage(HTMLExporter):
             "late": _late(about),
             "assignment": about["assignment"],
             "notebook": about["notebook"],
-            "colours": HtmlFormatter().get_style_defs(".highlight"),  # of code
+            "colors": HtmlFormatter().get_style_defs(".highlight"),  # of code
         }
         for cell in nb.cells:
             if "outputs" in cell:

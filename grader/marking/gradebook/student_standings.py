@@ -75,7 +75,7 @@ def extend(submission: SubmittedAssignment, until: Mapping[str, datetime], ended
         submission.extension = None
 
 
-def penalise(
+def penalize(
     app: NbGrader, book: Gradebook, submission: SubmittedAssignment, note: SubmittedNotebook
 ) -> None:
     """Set the penalty of the late submission plugin, if there is one."""

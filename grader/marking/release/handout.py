@@ -16,7 +16,7 @@ from pathlib import Path
 
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences
-from grader.notebook_format import normalised
+from grader.notebook_format import normalized
 from grader.work_folder import assistant_files, student_files
 
 NAME = "ros2-course"
@@ -69,7 +69,7 @@ def _is_excluded(name: str) -> bool:
 
 def _content(path: Path) -> bytes:
     if path.suffix == ".ipynb":  # it may have outputs
-        return normalised(path.read_text(encoding="utf-8"), str(path)).encode()
+        return normalized(path.read_text(encoding="utf-8"), str(path)).encode()
     return path.read_bytes()
 
 

@@ -17,7 +17,7 @@ from nbgrader.utils import capture_log, temp_attrs
 from grader.marking.errors import CommandFailed, MarkingError
 from grader.marking.gradebook.course import Course
 from grader.marking.release.nbgrader_command import assignments, failure
-from grader.notebook_format import normalise
+from grader.notebook_format import normalize
 
 ASIDE = ".exercises.part"
 REASONS = {  # what nbgrader's log has, and what to do
@@ -40,7 +40,7 @@ def tidy(assignment: str, **_: object) -> None:
 
     nbgrader calls this when it has made a release (`GenerateAssignment.post_convert_hook`).
     """
-    normalise([Path("exercises", assignment)])
+    normalize([Path("exercises", assignment)])
 
 
 def print_line(line: str) -> None:
@@ -83,7 +83,7 @@ def _release_one(course: Course, assignment: str) -> None:
                 why = reason.format(assignment=assignment)
                 raise CommandFailed(f"exercises/{assignment} is as it was: {why}")
             raise failure(course.root, f"generate_assignment {assignment} --force", log)
-        normalise([aside])
+        normalize([aside])
         shutil.rmtree(target, ignore_errors=True)
         target.parent.mkdir(exist_ok=True)
         aside.rename(target)

@@ -13,7 +13,7 @@ from importlib.abc import MetaPathFinder
 from types import ModuleType
 from typing import Any, NoReturn
 
-from grader.catalogue import exercises
+from grader.catalog import exercises
 from grader.marking.student_process.judge_only import CLOSED, EXERCISES
 
 SERVED = ("grader.companions.main_observer",)  # the judge names its function

@@ -53,7 +53,7 @@ class Joint(NamedTuple):
         return self.type in (*TURNING, "prismatic")
 
     def transform(self, position: float) -> Transform:
-        """The pose of the child in the parent, at a position in radians or metres."""
+        """The pose of the child in the parent, at a position in radians or meters."""
         rotation = quaternion_from_euler(*self.rpy)
         translation = self.xyz
         if self.type in TURNING:

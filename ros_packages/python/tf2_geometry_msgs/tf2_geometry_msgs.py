@@ -18,7 +18,7 @@ from geometry_msgs.msg import (
     Vector3,
     Vector3Stamped,
 )
-from tf2_py.rigid_transform import RigidTransform, normalised, rotate
+from tf2_py.rigid_transform import RigidTransform, normalized, rotate
 
 AXES = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -49,9 +49,9 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """A pose, rotated and translated."""
     orientation = pose.orientation
-    rotation = normalised((orientation.x, orientation.y, orientation.z, orientation.w))
+    rotation = normalized((orientation.x, orientation.y, orientation.z, orientation.w))
     result = _rigid_transform(transform).after(_translation(pose.position)._replace(rotation=rotation))
-    x, y, z, w = normalised(result.rotation)
+    x, y, z, w = normalized(result.rotation)
     return Pose(position=_xyz(Point, result.translation), orientation=Quaternion(x=x, y=y, z=z, w=w))
 
 
@@ -90,7 +90,7 @@ def transform_covariance(cov_in: Sequence[float], transform: TransformStamped) -
 def _rigid_transform(message: TransformStamped) -> RigidTransform:
     translation, rotation = message.transform.translation, message.transform.rotation
     return RigidTransform(
-        normalised((rotation.x, rotation.y, rotation.z, rotation.w)),
+        normalized((rotation.x, rotation.y, rotation.z, rotation.w)),
         (translation.x, translation.y, translation.z),
     )
 

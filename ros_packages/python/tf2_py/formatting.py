@@ -4,7 +4,7 @@ from geometry_msgs.msg import TransformStamped
 
 from tf2_py.cache import FrameCache, Nanoseconds, format_seconds
 from tf2_py.errors import ConnectivityException
-from tf2_py.rigid_transform import RigidTransform, normalised
+from tf2_py.rigid_transform import RigidTransform, normalized
 
 SECOND = 10**9
 
@@ -19,7 +19,7 @@ def transform_message(
     header, translation, rotation = message.header, message.transform.translation, message.transform.rotation
     header.stamp.sec, header.stamp.nanosec = divmod(stamp, SECOND)
     translation.x, translation.y, translation.z = transform.translation
-    rotation.x, rotation.y, rotation.z, rotation.w = normalised(transform.rotation)
+    rotation.x, rotation.y, rotation.z, rotation.w = normalized(transform.rotation)
     return message
 
 

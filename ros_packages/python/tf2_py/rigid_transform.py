@@ -1,6 +1,6 @@
 """Rigid transforms: a rotation followed by a translation.
 
-A rotation is a unit quaternion (x, y, z, w), a translation is (x, y, z) in metres.
+A rotation is a unit quaternion (x, y, z, w), a translation is (x, y, z) in meters.
 """
 
 import math
@@ -51,7 +51,7 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
     return x, y, z
 
 
-def normalised(q: Quaternion) -> Quaternion:
+def normalized(q: Quaternion) -> Quaternion:
     """A quaternion scaled to length 1. Rounding errors add up in long chains of transforms."""
     length = math.hypot(*q)
     return q[0] / length, q[1] / length, q[2] / length, q[3] / length

@@ -62,11 +62,11 @@ class ReadyOrder:
     def arranged(self, entries: list[Any], now: Nanoseconds) -> list[Any]:
         """These entities in the order of this time."""
         if self._places[0] is not entries or self._places[1] != now:
-            places = [self._place(index, entry, now) for index, entry in enumerate(self._labelled(entries))]
+            places = [self._place(index, entry, now) for index, entry in enumerate(self._labeled(entries))]
             self._places = entries, now, sorted(places, key=lambda place: place.rank)
         return [place.entry for place in self._places[2]]
 
-    def _labelled(self, entries: list[Any]) -> Iterator[tuple[Any, str]]:
+    def _labeled(self, entries: list[Any]) -> Iterator[tuple[Any, str]]:
         if self._labels[0] is not entries:
             count: Counter[str] = Counter()
             labels = []
@@ -77,8 +77,8 @@ class ReadyOrder:
             self._labels = entries, labels
         return zip(entries, self._labels[1], strict=True)
 
-    def _place(self, index: int, labelled: tuple[Any, str], now: Nanoseconds) -> Place:
-        entry, label = labelled
+    def _place(self, index: int, labeled: tuple[Any, str], now: Nanoseconds) -> Place:
+        entry, label = labeled
         name = self._name_of_choice(entry, label)
         if name is None:
             return Place(index, entry, label, USUAL, None)

@@ -74,7 +74,7 @@ class SharedContext:
 
 
 def shared_context(context: Context) -> SharedContext:
-    """What a context that was initialised in a run has in place of rcl's handle."""
+    """What a context that was initialized in a run has in place of rcl's handle."""
     return context._Context__context
 
 

@@ -155,14 +155,14 @@ def assert_liveliness(original: Callable) -> Callable:
 @hook(Publisher, "wait_for_all_acked", "it waits in simulated time for messages on the network")
 def wait_for_all_acked(original: Callable) -> Callable:
     def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
-        _require_context(self, "Failed to wait for all acknowledgements")
+        _require_context(self, "Failed to wait for all acknowledgments")
         run = engine()
         writer = self.__dict__.get("_sim")
         if run is None or writer is None or writer.outgoing is None:
             return original(self, timeout)
         until = None if timeout.nanoseconds < 0 else run.now + timeout.nanoseconds
         acknowledged = writer.outgoing.all_acknowledged
-        run.wait(f"the acknowledgements on {writer.topic}", ready=acknowledged, until=until)
+        run.wait(f"the acknowledgments on {writer.topic}", ready=acknowledged, until=until)
         return acknowledged()
 
     return wait_for_all_acked

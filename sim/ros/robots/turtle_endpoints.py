@@ -32,9 +32,9 @@ class TurtleEnds:
         self._node, self._pond, self._turtle = node, pond, turtle
         name, qos = turtle.name, QoSProfile(depth=DEPTH)
         self._pose = Template(Pose(), ["x", "y", "theta", "linear_velocity", "angular_velocity"])
-        self._colour = Template(Color(), ["r", "g", "b"])
+        self._color = Template(Color(), ["r", "g", "b"])
         self._pose_pub = node.create_publisher(Pose, f"{name}/pose", qos)
-        self._colour_pub = node.create_publisher(Color, f"{name}/color_sensor", qos)
+        self._color_pub = node.create_publisher(Color, f"{name}/color_sensor", qos)
         self._commands = node.create_subscription(Twist, f"{name}/cmd_vel", self.on_command, qos)
         self._services = [
             node.create_service(SetPen, f"{name}/set_pen", self.on_set_pen),
@@ -44,7 +44,7 @@ class TurtleEnds:
         self._rotations = RotateServer(node, turtle)
 
     def publish(self) -> None:
-        """Publish the turtle's pose and the colour below it, and log what happened to it."""
+        """Publish the turtle's pose and the color below it, and log what happened to it."""
         turtle, log = self._turtle, self._node.get_logger()
         self._rotations.watch()
         for x, y in turtle.wall_hits:
@@ -52,7 +52,7 @@ class TurtleEnds:
         turtle.wall_hits.clear()
         ahead, left, turn = turtle.velocity
         self._pose_pub.publish(self._pose.fill(*turtle.pose, math.hypot(ahead, left), turn))
-        self._colour_pub.publish(self._colour.fill(*turtle.colour))
+        self._color_pub.publish(self._color.fill(*turtle.color))
 
     def close(self) -> None:
         """Destroy the endpoints; the action server remains until no goal is running."""
@@ -61,7 +61,7 @@ class TurtleEnds:
         node.destroy_subscription(self._commands)
         for service in self._services:
             node.destroy_service(service)
-        for publisher in (self._pose_pub, self._colour_pub):
+        for publisher in (self._pose_pub, self._color_pub):
             node.destroy_publisher(publisher)
 
     def close_if_idle(self) -> bool:
@@ -80,8 +80,8 @@ class TurtleEnds:
         if request.off:
             self._turtle.lift_pen()
         else:
-            colour = request.r, request.g, request.b
-            self._turtle.set_pen(Pen(colour, request.width or 1))
+            color = request.r, request.g, request.b
+            self._turtle.set_pen(Pen(color, request.width or 1))
         return response
 
     def on_relative(self, request: Any, response: Any) -> Any:

@@ -1,4 +1,4 @@
-"""turtlesim as an ordinary ROS 2 node, with upstream's names, types, log lines and behaviour."""
+"""turtlesim as an ordinary ROS 2 node, with upstream's names, types, log lines and behavior."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ class Turtlesim(Node):
 
     def _declare(self) -> None:
         channel = IntegerRange(from_value=0, to_value=255, step=1)
-        for (name, colour), value in zip(CHANNELS.items(), self.scene.drawing.ground, strict=True):
-            description = f"{colour} channel of the background color"
+        for (name, color), value in zip(CHANNELS.items(), self.scene.drawing.ground, strict=True):
+            description = f"{color} channel of the background color"
             self.declare_parameter(
                 name, value, ParameterDescriptor(description=description, integer_range=[channel])
             )

@@ -158,9 +158,9 @@ class ReliableChannel(Channel):
         now = self._scheduler.now + RESPONSE
         arrival = self._back.cross(self._random, 0, now)
         if arrival is not None:
-            self._at(arrival, partial(self._on_acknowledgement, missing, last))
+            self._at(arrival, partial(self._on_acknowledgment, missing, last))
 
-    def _on_acknowledgement(self, missing: list[int], last: int) -> None:
+    def _on_acknowledgment(self, missing: list[int], last: int) -> None:
         """At the publisher: the subscription has all up to `last` except what it misses.
 
         What is later than the first of these doesn't count as acknowledged.

@@ -5,18 +5,18 @@ const PAN_STEP = 0.15; // of the width, for a key
 const PANS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 
 /**
- * The centre (m) and scale (px/m) that a view of a world of this size has at a zoom, without showing more than all.
+ * The center (m) and scale (px/m) that a view of a world of this size has at a zoom, without showing more than all.
  * @param {{ width: number, height: number }} size @param {number[]} shown left, bottom, right and top (m)
- * @param {number} zoom @param {number[]} centre
+ * @param {number} zoom @param {number[]} center
  */
-function viewAt(size, shown, zoom, centre) {
+function viewAt(size, shown, zoom, center) {
   const [left, bottom, right, top] = shown;
   const scale = zoom * Math.min(size.width / (right - left), size.height / (top - bottom));
   const inside = (value, low, high, pixels) => {
     const half = pixels / scale / 2;
     return high - low <= 2 * half ? (low + high) / 2 : Math.min(Math.max(value, low + half), high - half);
   };
-  return { scale, x: inside(centre[0], left, right, size.width), y: inside(centre[1], bottom, top, size.height) };
+  return { scale, x: inside(center[0], left, right, size.width), y: inside(center[1], bottom, top, size.height) };
 }
 
 /** The controls of a WorldCanvas; `follows` is the index of the body that can be followed, or -1. */
@@ -27,7 +27,7 @@ class Camera {
     this.follows = follows;
     this.zoom = 1;
     /** @type {number[] | null} */
-    this.centre = null; // m; null is the middle
+    this.center = null; // m; null is the middle
     this.following = false;
     this.toggle = button("follow", "Follow the robot (F)", () => this.follow(!this.following));
     this.toggle.setAttribute("aria-pressed", "false");
@@ -44,11 +44,11 @@ class Camera {
     this.update();
   }
 
-  /** The view to draw with: scale, and the centre in metres. */
+  /** The view to draw with: scale, and the center in meters. */
   view() {
     const { picture } = this, [left, bottom, right, top] = picture.shown;
     const pose = this.following ? picture.frame.poses[this.follows] : null;
-    return viewAt(picture, picture.shown, this.zoom, pose ?? this.centre ?? [(left + right) / 2, (bottom + top) / 2]);
+    return viewAt(picture, picture.shown, this.zoom, pose ?? this.center ?? [(left + right) / 2, (bottom + top) / 2]);
   }
 
   /** Zoom by a factor; a point of the picture (px), if given, stays where it is. */
@@ -57,14 +57,14 @@ class Camera {
     this.zoom = Math.min(Math.max(this.zoom * factor, 1), MOST_ZOOM);
     const dx = px - picture.width / 2, dy = picture.height / 2 - py;
     const after = viewAt(picture, picture.shown, this.zoom, [before.x, before.y]).scale;
-    this.centre = [before.x + dx / before.scale - dx / after, before.y + dy / before.scale - dy / after];
+    this.center = [before.x + dx / before.scale - dx / after, before.y + dy / before.scale - dy / after];
     this.update();
   }
 
   panBy(dx, dy) {
     const { x, y, scale } = this.view();
     this.following = false;
-    this.centre = [x + dx / scale, y + dy / scale];
+    this.center = [x + dx / scale, y + dy / scale];
     this.update();
   }
 
@@ -75,13 +75,13 @@ class Camera {
   }
 
   reset() {
-    Object.assign(this, { zoom: 1, centre: null, following: false });
+    Object.assign(this, { zoom: 1, center: null, following: false });
     this.update();
   }
 
   update() {
     const { x, y } = this.view();
-    if (this.centre) this.centre = [x, y];
+    if (this.center) this.center = [x, y];
     this.toggle.setAttribute("aria-pressed", String(this.following));
     this.less.disabled = this.whole.disabled = this.zoom === 1 && !this.following;
     this.picture.canvas.style.cursor = this.zoom > 1 ? "grab" : "";

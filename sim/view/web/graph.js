@@ -30,9 +30,9 @@ class Graph {
     return this.root.open && this.root.clientWidth > 0 && !document.hidden;
   }
 
-  /** Set the colours of a light or dark page. */
+  /** Set the colors of a light or dark page. */
   tint() {
-    const { contact, floor } = colours(this.root);
+    const { contact, floor } = colors(this.root);
     this.root.style.setProperty("--gap", contact);
     this.root.style.setProperty("--floor", floor);
   }

@@ -3,7 +3,7 @@
 const SIGNS = { box: ["■", "box"], person: ["●", "person"], ghost: ["●", "ghost"] };
 
 /**
- * Sign, colour and meaning of what a world has besides walls and one robot; `look` is a palette.
+ * Sign, color and meaning of what a world has besides walls and one robot; `look` is a palette.
  * @param {World} world @param {Record<string, any>} look
  */
 function legendOf(world, look) {
@@ -19,9 +19,9 @@ function legendOf(world, look) {
 
 /** The elements of a legend. */
 function legendElements(entries) {
-  return entries.map(([sign, colour, name]) => {
+  return entries.map(([sign, color, name]) => {
     const swatch = make("b", { ariaHidden: "true" }, sign);
-    swatch.style.color = colour;
+    swatch.style.color = color;
     return make("span", {}, swatch, ` ${name}`);
   });
 }

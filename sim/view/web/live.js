@@ -150,7 +150,7 @@ class View {
   }
 
   showLegend() {
-    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(legendOf(this.world, colours(this.root))));
+    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(legendOf(this.world, colors(this.root))));
   }
 
   close() {

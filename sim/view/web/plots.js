@@ -2,31 +2,31 @@
 // untrusted: it is validated, and on any error the div keeps its PNG. The time cursor is that of all pictures of the run.
 
 const PANEL = 170, ROW = 26, AXIS = 44, ROW_NAMES = 190; // CSS pixels: heights of a panel, a row and the axis of time; width of names
-const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]]; // curves differ in more than colour
+const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]]; // curves differ in more than color
 const NEAR = 0.015; // share of the visible time within which a mark is named
 const KEY_STEP = 0.01; // share of the visible time that an arrow key moves the cursor by
-const STYLES = ["line", "step", "points"], COLOURS = ["warning", "caution", "muted"];
+const STYLES = ["line", "step", "points"], COLORS = ["warning", "caution", "muted"];
 const MARK_KINDS = ["contact", "error", "missed", "push", "end"];
 const FONT = "12px system-ui, sans-serif";
 
 /** Parses the data of ../plot_data.py; throws a TypeError if it is invalid. */
 function checkPlot(plot) {
   if (plot.version !== 1) refuse("version 1");
-  const colour = (value) => (COLOURS.includes(value) ? value : size(value));
-  const series = ({ name, style, colour: tint, markers, x, y }) => {
+  const color = (value) => (COLORS.includes(value) ? value : size(value));
+  const series = ({ name, style, color: tint, markers, x, y }) => {
     const moments = list(x, 5000, (stamp) => number(stamp));
     const values = list(y, 5000, (value) => (value === null ? null : number(value, 1e12)));
     if (moments.length !== values.length) refuse("a value for each stamp");
-    return { name: text(name), style: STYLES.includes(style) ? style : refuse("a style"), colour: colour(tint), markers: Boolean(markers), x: moments, y: values };
+    return { name: text(name), style: STYLES.includes(style) ? style : refuse("a style"), color: color(tint), markers: Boolean(markers), x: moments, y: values };
   };
   return {
     key: /^[0-9a-f]{12}$/.test(plot.run) ? plot.run : "", title: text(plot.title), failure: text(plot.failure), begin: size(plot.begin), end: size(plot.end),
     panels: list(plot.panels, 20, (panel) => ({
       unit: text(panel.unit), series: list(panel.series, 20, series),
-      levels: list(panel.levels, 5, ([value, name, tint]) => ({ value: number(value), name: text(name), colour: colour(tint) })),
+      levels: list(panel.levels, 5, ([value, name, tint]) => ({ value: number(value), name: text(name), color: color(tint) })),
     })),
-    rows: list(plot.rows, 200, ({ name, colour: tint, x }) => ({
-      name: text(name), colour: colour(tint), x: list(x, 5000, (stamp) => number(stamp)),
+    rows: list(plot.rows, 200, ({ name, color: tint, x }) => ({
+      name: text(name), color: color(tint), x: list(x, 5000, (stamp) => number(stamp)),
     })),
     marks: list(plot.marks, 1000, ([stamp, kind, words]) => ({
       stamp: number(stamp, 1e9) * 1e-3, kind: MARK_KINDS.includes(kind) ? kind : refuse("a kind of mark"), words: text(words),
@@ -82,7 +82,7 @@ class TimePlot {
   }
 
   draw() {
-    const look = colours(this.root);
+    const look = colors(this.root);
     if (look === this.look) return;
     this.look = look;
     this.failure.style.color = look.failure;
@@ -93,7 +93,7 @@ class TimePlot {
     this.charts = panels;
   }
 
-  colour(value, index) {
+  color(value, index) {
     if (value === "warning") return this.look.contact;
     if (value === "caution") return this.look.rim;
     if (value === "muted") return this.look.edge;
@@ -124,8 +124,8 @@ class TimePlot {
   }
 
   panelChart({ unit, series, levels }, last) {
-    const look = series.map(({ name, style, colour, markers }, index) => {
-      const stroke = this.colour(colour, typeof colour === "number" ? index : 0);
+    const look = series.map(({ name, style, color, markers }, index) => {
+      const stroke = this.color(color, typeof color === "number" ? index : 0);
       return {
         label: name, stroke, width: style === "points" ? 0 : 1.6, dash: DASHES[index % DASHES.length],
         points: { show: markers, size: style === "points" ? 4 : 6, fill: style === "points" ? stroke : undefined },
@@ -133,7 +133,7 @@ class TimePlot {
         value: (_, value) => (value === null || value === undefined ? "-" : `${Number(value.toPrecision(4))}${unit ? ` ${unit}` : ""}`),
       };
     });
-    const lines = (chart) => levels.forEach(({ value, name, colour }) => this.level(chart, value, name, this.colour(colour, 0)));
+    const lines = (chart) => levels.forEach(({ value, name, color }) => this.level(chart, value, name, this.color(color, 0)));
     const values = [...series.flatMap(({ y }) => y.filter((value) => value !== null)), ...levels.map(({ value }) => value)];
     const low = Math.min(...values), high = Math.max(...values), room = (high - low || 1) * 0.06;
     const more = {
@@ -161,7 +161,7 @@ class TimePlot {
   rowsChart() {
     const { rows } = this.plot;
     const series = rows.map(({ name, x }) => ({ name, x, y: x.map(() => 0) }));
-    const ticks = (chart) => rows.forEach(({ x, colour }, index) => {
+    const ticks = (chart) => rows.forEach(({ x, color }, index) => {
       const c = chart.ctx, y = chart.valToPos(index, "y", true), half = 8 * uPlot.pxRatio, { left, width } = chart.bbox;
       c.save();
       c.beginPath();
@@ -171,7 +171,7 @@ class TimePlot {
         c.moveTo(at, y - half);
         c.lineTo(at, y + half);
       }
-      c.strokeStyle = this.colour(colour, 0);
+      c.strokeStyle = this.color(color, 0);
       c.lineWidth = 1.5 * uPlot.pxRatio;
       c.stroke();
       c.restore();

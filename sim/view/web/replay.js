@@ -112,11 +112,11 @@ class Player {
   }
 
   paintStrips() {
-    this.failure.style.color = colours(this.root).failure;
+    this.failure.style.color = colors(this.root).failure;
     for (const { canvas, strip } of this.strips) {
       const context = canvas.getContext("2d");
       context.clearRect(0, 0, STRIP, 1);
-      context.fillStyle = colours(this.root).robots[0];
+      context.fillStyle = colors(this.root).robots[0];
       [...strip].forEach((sign, column) => { if (sign === "1") context.fillRect(column, 0, 1, 1); });
     }
   }
@@ -263,7 +263,7 @@ class PathPicture {
   }
 
   showLegend(contacts) {
-    const { world, tip } = this.run, look = colours(this.root);
+    const { world, tip } = this.run, look = colors(this.root);
     const robots = world.bodies.filter(({ kind }) => kind === "robot");
     const entries = [
       ...robots.map(({ name }, index) => ["—", look.robots[index % look.robots.length], index ? name : "path"]),

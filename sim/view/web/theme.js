@@ -1,4 +1,4 @@
-// The colours of pictures on light and dark pages.
+// The colors of pictures on light and dark pages.
 
 const TURTLES = ["#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8"]; // on a pond's background
 const LIGHT = {
@@ -21,7 +21,7 @@ function onTheme(element, update) {
   const soon = () => {
     if (!element.isConnected) { stop(); return; }
     update();
-    setTimeout(update, 400); // JupyterLab loads the theme's colours with a delay
+    setTimeout(update, 400); // JupyterLab loads the theme's colors with a delay
   };
   const watch = new MutationObserver(soon);
   watch.observe(document.documentElement, { attributes: true });
@@ -31,8 +31,8 @@ function onTheme(element, update) {
   const stop = () => { watch.disconnect(); scheme.removeEventListener("change", soon); };
 }
 
-/** The colours for an element: a light text colour means a dark page. */
-function colours(element) {
+/** The colors for an element: a light text color means a dark page. */
+function colors(element) {
   const [red, green, blue] = (getComputedStyle(element).color.match(/[\d.]+/g) || [0, 0, 0]).map(Number);
   return 0.3 * red + 0.6 * green + 0.1 * blue > 128 ? DARK : LIGHT;
 }

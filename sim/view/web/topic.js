@@ -1,6 +1,6 @@
 // The details of the selected topic: its type, its message at the cursor or the newest one, and a small plot of its numbers.
 
-const DASHES = [[], [5, 3]]; // curves differ in more than colour
+const DASHES = [[], [5, 3]]; // curves differ in more than color
 
 class Topic {
   constructor() {
@@ -43,7 +43,7 @@ class Topic {
     this.canvas.width = Math.round(width * sharp);
     this.canvas.height = Math.round(height * sharp);
     const c = this.canvas.getContext("2d");
-    const look = colours(this.canvas);
+    const look = colors(this.canvas);
     c.scale(sharp, sharp);
     if (cursor !== undefined) {
       const at = edge + (width - 2 * edge) * Math.min(Math.max((cursor - left) / (right - left || 1), 0), 1);

@@ -1,4 +1,4 @@
-// Draws a world from above, or from the side: metres, x to the right, y up. Used by the live view and the replay.
+// Draws a world from above, or from the side: meters, x to the right, y up. Used by the live view and the replay.
 
 const MARGIN = 0.2; // m around the bounds
 const MAX_HEIGHT = 500; // CSS pixels
@@ -65,7 +65,7 @@ class WorldCanvas {
     cancelAnimationFrame(this.request);
   }
 
-  /** Extend the picture, by whole metres, so that it includes a body at this pose. @param {World["bodies"][number]} body @param {Pose} pose */
+  /** Extend the picture, by whole meters, so that it includes a body at this pose. @param {World["bodies"][number]} body @param {Pose} pose */
   include(body, [x, y]) {
     const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v)));
     const [left, bottom, right, top] = this.shown;
@@ -135,14 +135,14 @@ class WorldCanvas {
     this.x0 = this.width / 2 - scale * x;
     this.y0 = this.height / 2 + scale * y;
     const sharp = window.devicePixelRatio || 1;
-    this.look = colours(this.stage);
+    this.look = colors(this.stage);
     this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.context.lineJoin = this.context.lineCap = "round";
     this.floor();
     const hits = this.rays();
     this.obstacles();
-    for (const { colour, width, points } of this.frame.drawn?.strokes ?? []) {
-      this.line(points, colour, Math.max(width * this.scale, 1));
+    for (const { color, width, points } of this.frame.drawn?.strokes ?? []) {
+      this.line(points, color, Math.max(width * this.scale, 1));
     }
     this.context.fillStyle = this.look.hit;
     for (const [px, py] of hits) this.context.fillRect(px - 1.5, py - 1.5, 3, 3);
@@ -155,12 +155,12 @@ class WorldCanvas {
     this.ruler();
   }
 
-  line(points, colour, width, close = false) {
+  line(points, color, width, close = false) {
     const c = this.context;
     c.beginPath();
     for (const [x, y] of points) c.lineTo(...this.at(x, y));
     if (close) c.closePath();
-    c.strokeStyle = colour;
+    c.strokeStyle = color;
     c.lineWidth = width;
     c.stroke();
   }
@@ -219,8 +219,8 @@ class WorldCanvas {
     const [x, y, yaw] = scan.pose;
     const areas = { true: new Path2D(), false: new Path2D() };
     const hits = [];
-    const centre = this.at(x, y);
-    // Neighbouring rays make one area: lines would interfere with the pixels.
+    const center = this.at(x, y);
+    // Neighboring rays make one area: lines would interfere with the pixels.
     const ends = Array.from(scan.ranges, (range, ray) => {
       if (Number.isNaN(range) || range === -Infinity) return null;
       const angle = yaw + scan.start + ray * scan.step, hit = range !== Infinity, reach = hit ? range : scan.far;
@@ -233,7 +233,7 @@ class WorldCanvas {
       const next = index + 1 < ends.length ? ends[index + 1] : full ? ends[0] : null;
       if (!ray || !next) return;
       const area = areas[ray.hit && next.hit];
-      area.moveTo(...centre);
+      area.moveTo(...center);
       area.lineTo(...ray.end);
       area.lineTo(...next.end);
       area.closePath();
@@ -380,8 +380,8 @@ class WorldCanvas {
     c.lineTo(right, low - 4);
     c.font = "11px system-ui, sans-serif";
     c.textAlign = "center";
-    for (const { colour, width } of [{ colour: this.look.floor, width: 4 }, { colour: this.look.ink, width: 1.5 }]) {
-      c.strokeStyle = c.fillStyle = colour;
+    for (const { color, width } of [{ color: this.look.floor, width: 4 }, { color: this.look.ink, width: 1.5 }]) {
+      c.strokeStyle = c.fillStyle = color;
       c.lineWidth = width;
       c.stroke();
       if (width > 2) c.strokeText(`${this.unit} m`, (left + right) / 2, low - 4);

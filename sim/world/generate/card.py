@@ -4,7 +4,7 @@ from sim.world.obstacles import Point
 
 _TOPICS = "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /tf, /tf_static and /clock."
 _FRAMES = (
-    "Metres, radians, seconds. map: the world, x to the right of the picture, y up. "
+    "Meters, radians, seconds. map: the world, x to the right of the picture, y up. "
     "odom: where the robot started. base_link: the robot, x forward, y left. base_scan: its lidar."
 )
 

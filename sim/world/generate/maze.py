@@ -1,4 +1,4 @@
-"""Generates mazes: grid cells with walls between some of the neighbours."""
+"""Generates mazes: grid cells with walls between some of the neighbors."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Cell = tuple[int, int]
 
 
 class Grid(NamedTuple):
-    """A maze: its size, and all pairs of neighbours without a wall in between, left or lower cell first."""
+    """A maze: its size, and all pairs of neighbors without a wall in between, left or lower cell first."""
 
     columns: int
     rows: int
@@ -28,20 +28,20 @@ class Grid(NamedTuple):
         return 0 <= cell[0] < self.columns and 0 <= cell[1] < self.rows
 
     def passable(self, a: Cell, b: Cell) -> bool:
-        """Whether there is no wall between two neighbours, of which one may be outside the grid."""
+        """Whether there is no wall between two neighbors, of which one may be outside the grid."""
         return ((a, b) if a < b else (b, a)) in self.open
 
 
 @dataclass(frozen=True)
 class Maze(Model):
-    """A maze with cells of `cell` metres, all of them reachable.
+    """A maze with cells of `cell` meters, all of them reachable.
 
     `loops` is the fraction of inner walls that are removed: with 0 there is exactly one path to each cell.
     """
 
     columns: Annotated[int, within(2, 40)] = 6
     rows: Annotated[int, within(2, 40)] = 6
-    cell: Annotated[float, within(0.4, 5, "metres")] = 1.0
+    cell: Annotated[float, within(0.4, 5, "meters")] = 1.0
     loops: Annotated[float, within(0, 1)] = 0.0
 
     def draw(self, rng: Random) -> dict[str, Any]:
@@ -76,7 +76,7 @@ def generate_maze(columns: int, rows: int, loops: float, rng: Random) -> Grid:
     seen, trail = {(0, 0)}, [(0, 0)]
     while trail:
         here = trail[-1]
-        fresh = [cell for cell in _neighbours(closed, here) if cell not in seen]
+        fresh = [cell for cell in _neighbors(closed, here) if cell not in seen]
         if not fresh:
             trail.pop()
             continue
@@ -98,7 +98,7 @@ def longest_path(maze: Grid, start: Cell) -> list[Cell]:
     came_from: dict[Cell, Cell | None] = {start: None}
     queue = [start]
     for here in queue:
-        for there in _neighbours(maze, here):
+        for there in _neighbors(maze, here):
             if there not in came_from and maze.passable(here, there):
                 came_from[there] = here
                 queue.append(there)
@@ -127,6 +127,6 @@ def _runs(passable: Iterator[bool]) -> Iterator[tuple[int, int]]:
             yield begin, end
 
 
-def _neighbours(maze: Grid, cell: Cell) -> Iterator[Cell]:
+def _neighbors(maze: Grid, cell: Cell) -> Iterator[Cell]:
     x, y = cell
     return filter(maze.inside, ((x + 1, y), (x, y + 1), (x - 1, y), (x, y - 1)))

@@ -32,10 +32,10 @@ class NoSpaceError(Exception):
 
 @dataclass(frozen=True)
 class Room(Model):
-    """A walled room with boxes, pillars and boxes that can be pushed; sizes in metres."""
+    """A walled room with boxes, pillars and boxes that can be pushed; sizes in meters."""
 
-    width: Annotated[float, within(2, 50, "metres")] = 6.0
-    height: Annotated[float, within(2, 50, "metres")] = 6.0
+    width: Annotated[float, within(2, 50, "meters")] = 6.0
+    height: Annotated[float, within(2, 50, "meters")] = 6.0
     boxes: Annotated[int, within(0, 500)] = 4
     circles: Annotated[int, within(0, 500)] = 2
     movable: Annotated[int, within(0, 100)] = 0
@@ -80,8 +80,8 @@ class Room(Model):
 class Clutter(Model):
     """A walled field with many small pillars and boxes, which cover the fraction `density` of it."""
 
-    width: Annotated[float, within(2, 50, "metres")] = 8.0
-    height: Annotated[float, within(2, 50, "metres")] = 5.0
+    width: Annotated[float, within(2, 50, "meters")] = 8.0
+    height: Annotated[float, within(2, 50, "meters")] = 5.0
     density: Annotated[float, within(0, 0.08)] = 0.04
 
     def draw(self, rng: Random) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from sim.world.warehouse import WarehouseModel
 _DEPTH, _LENGTH = 0.6, 2.4  # of a shelf, m
 _FRONT = 0.8  # m between the left wall and the aisle before the shelves, for the charger and the desk
 _CHARGERS = 1.2, 0.8, 0.3  # m; the x of the second robot's charger, the spacing of further ones, their y
-_STAND = 0.25  # m from a shelf or desk to the centre of a robot in front of it
+_STAND = 0.25  # m from a shelf or desk to the center of a robot in front of it
 _TOPICS = (
     "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /battery_state (sensor_msgs/BatteryState), "
     "/tf, /tf_static (also map to odom) and /clock; and, kept for whoever comes later, /map "

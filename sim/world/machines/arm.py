@@ -22,7 +22,7 @@ class ReachError(ValueError):
 class ArmModel(Model):
     """Two links in a row, each turned by a joint; the elbow's angle is 0 when the arm is straight.
 
-    Points are in the arm's own frame: metres, the shoulder at the origin, x along the arm at angles 0, 0.
+    Points are in the arm's own frame: meters, the shoulder at the origin, x along the arm at angles 0, 0.
 
     Attributes:
         elbow_first: /joint_states lists the elbow first; the order of joints differs between drivers.

@@ -57,7 +57,7 @@ class CartPoleModel(Model):
         m l^2 a'' - m l cos(a) x'' - m g l sin(a) = - pole_friction a'
 
     Attributes:
-        track_length: the cart moves up to half of it from the centre; the ends stop it without a rebound.
+        track_length: the cart moves up to half of it from the center; the ends stop it without a rebound.
         cart_friction, pole_friction: N per m/s and N m per rad/s.
         start_angle, start_spread: the initial angle, plus or minus a random part up to the spread.
         max_force: the motor's greatest force in either direction.
@@ -76,7 +76,7 @@ class CartPoleModel(Model):
     start_spread: Annotated[float, at_least(0, "radians")] = 0.05
     max_force: Annotated[float, positive("N", 1000)] = 10.0
     command_timeout: Annotated[float, positive("s", 1000)] = 0.2
-    position_noise: Annotated[float, at_least(0, "metres")] = 0.0
+    position_noise: Annotated[float, at_least(0, "meters")] = 0.0
     angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
     pushes: Annotated[tuple[Push, ...], Constraint("a list of Push")] = ()
 
@@ -85,7 +85,7 @@ class CartPoleModel(Model):
         heaviness = 1 + self.pole_mass / self.cart_mass
         shortest = heaviness * GRAVITY * (_H / _FASTEST_SWING) ** 2
         if self.pole_length < shortest:
-            self.reject("pole_length", f"at least {shortest:.2g} (metres) for these masses")
+            self.reject("pole_length", f"at least {shortest:.2g} (meters) for these masses")
         most = _FASTEST_DECAY / _H * self.cart_mass
         if self.cart_friction > most:
             self.reject("cart_friction", f"{most:.2g} (N per m/s) or less for this mass")

@@ -9,7 +9,7 @@ from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, MachineWorld, Pose
 from sim.world.machines.pond_image import SIDE, PondImage
 from sim.world.machines.turtle import STEP, Turtle, as_float32
-from sim.world.pen_drawing import Colour, PenDrawing
+from sim.world.pen_drawing import Color, PenDrawing
 from sim.world.validated_model import Constraint, Model
 
 _HALF = (
@@ -17,20 +17,20 @@ _HALF = (
     (-0.25, 0.36), (-0.37, 0.29), (-0.3, 0.16), (-0.38, 0.05), (-0.5, 0.0),
 )  # fmt: skip
 _OUTLINE = (*_HALF, *((x, -y) for x, y in _HALF[-2:0:-1]))
-_COLOUR = Constraint(
+_COLOR = Constraint(
     "[red, green, blue], each a whole number from 0 to 255", lambda c: all(0 <= v <= 255 for v in c)
 )
 
 
 @dataclass(frozen=True)
 class PondModel(Model):
-    """A pond of 11.09 m by 11.09 m with a turtle at its centre.
+    """A pond of 11.09 m by 11.09 m with a turtle at its center.
 
     Attributes:
-        background: the colour of the ground.
+        background: the color of the ground.
     """
 
-    background: Annotated[tuple[int, int, int], _COLOUR] = (69, 86, 255)
+    background: Annotated[tuple[int, int, int], _COLOR] = (69, 86, 255)
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -104,15 +104,15 @@ class Pond(Machine):
             turtle.break_stroke()
 
     def reset(self) -> None:
-        """Restore the initial state except for the colour of the ground."""
+        """Restore the initial state except for the color of the ground."""
         self.turtles.clear()
         self._number = 0
         self.clear()
         self._begin()
 
-    def set_background(self, colour: Colour) -> None:
-        """Change the colour of the ground."""
-        self.drawing.set_ground(self._now, colour)
+    def set_background(self, color: Color) -> None:
+        """Change the color of the ground."""
+        self.drawing.set_ground(self._now, color)
 
     def discard_history(self) -> None:
         """Discard lines that are no longer visible."""

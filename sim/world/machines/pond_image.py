@@ -1,20 +1,20 @@
-"""The ground of a pond as pixels, for the turtles' colour sensors; pictures use `PenDrawing`."""
+"""The ground of a pond as pixels, for the turtles' color sensors; pictures use `PenDrawing`."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from sim.world.pen_drawing import Colour
+from sim.world.pen_drawing import Color
 
 PIXELS = 500  # per row and per column
-PER_METRE = 45
-SIDE = float(np.float32(PIXELS - 1) / np.float32(PER_METRE))
-"""Side length of a pond, m: from the centre of the first pixel to that of the last, as in turtlesim."""
-_DRAWN = 1 << 24  # flag of a pixel with pen colour
+PER_METER = 45
+SIDE = float(np.float32(PIXELS - 1) / np.float32(PER_METER))
+"""Side length of a pond, m: from the center of the first pixel to that of the last, as in turtlesim."""
+_DRAWN = 1 << 24  # flag of a pixel with pen color
 
 
 class PondImage:
-    """500 by 500 pixels, 45 in a metre."""
+    """500 by 500 pixels, 45 in a meter."""
 
     def __init__(self) -> None:
         self._pixels = np.zeros((PIXELS, PIXELS), np.uint32)  # 0: nothing drawn
@@ -23,14 +23,14 @@ class PondImage:
         """Erase everything drawn."""
         self._pixels[:] = 0
 
-    def colour(self, x: float, y: float, ground: Colour) -> Colour:
-        """The colour at a position (m): of the pen, or of the ground."""
+    def color(self, x: float, y: float, ground: Color) -> Color:
+        """The color at a position (m): of the pen, or of the ground."""
         value = int(self._pixels[_pixel(SIDE - y), _pixel(x)])
         return (value >> 16 & 255, value >> 8 & 255, value & 255) if value else ground
 
-    def line(self, x0: float, y0: float, x1: float, y1: float, colour: Colour, width: int) -> None:
+    def line(self, x0: float, y0: float, x1: float, y1: float, color: Color, width: int) -> None:
         """Draw a line (m) with a square pen, `width` in pixels."""
-        value = _DRAWN | colour[0] << 16 | colour[1] << 8 | colour[2]
+        value = _DRAWN | color[0] << 16 | color[1] << 8 | color[2]
         column, row = _pixel(x0), _pixel(SIDE - y0)
         across, down = _pixel(x1) - column, _pixel(SIDE - y1) - row
         steps = max(abs(across), abs(down), 1)
@@ -57,5 +57,5 @@ def clipped(x0: float, y0: float, x1: float, y1: float) -> tuple[float, float, f
     return x0 + first * across, y0 + first * up, x0 + last * across, y0 + last * up
 
 
-def _pixel(metres: float) -> int:
-    return min(max(int(metres * PER_METRE + 0.5), 0), PIXELS - 1)
+def _pixel(meters: float) -> int:
+    return min(max(int(meters * PER_METER + 0.5), 0), PIXELS - 1)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.world.machines.pond_image import PER_METRE, SIDE, PondImage, clipped
-from sim.world.pen_drawing import Colour, PenDrawing, Stroke
+from sim.world.machines.pond_image import PER_METER, SIDE, PondImage, clipped
+from sim.world.pen_drawing import Color, PenDrawing, Stroke
 from sim.world.robot import CommandError, Pose
 
 STEP = 0.016
@@ -19,7 +19,7 @@ _STOPPED = (0.0, 0.0, 0.0)
 
 
 def wrap_half_open(angle: float) -> float:
-    """The same angle (rad) in [-pi, pi), as turtlesim normalises it."""
+    """The same angle (rad) in [-pi, pi), as turtlesim normalizes it."""
     return angle - math.tau * math.floor((angle + math.pi) / math.tau)
 
 
@@ -27,7 +27,7 @@ def wrap_half_open(angle: float) -> float:
 class Pen:
     """A turtle's pen: width in pixels; it draws while `down`."""
 
-    colour: Colour = (0xB3, 0xB8, 0xFF)
+    color: Color = (0xB3, 0xB8, 0xFF)
     width: int = 3
     down: bool = True
 
@@ -61,7 +61,7 @@ class Turtle:
         self.velocity = _STOPPED  # forward, left (m/s), and counter-clockwise (rad/s)
         self.pen = Pen()
         self.wall_hits: list[tuple[float, float]] = []
-        self.colour: Colour = drawing.ground  # of the ground beneath it
+        self.color: Color = drawing.ground  # of the ground beneath it
         self._image, self._drawing = image, drawing
         self._commanded_at = 0.0  # time of the latest velocity command, s
         self._teleports: list[tuple[bool, float, float, float]] = []
@@ -130,8 +130,8 @@ class Turtle:
         if not (0 <= x <= SIDE and 0 <= y <= SIDE):
             self.wall_hits.append((x, SIDE - y))
         self.x, self.y = min(max(x, 0.0), SIDE), min(max(y, 0.0), SIDE)
-        # The colour sensor reads the ground before the new segment of the line is drawn.
-        self.colour = self._image.colour(self.x, self.y, self._drawing.ground)
+        # The color sensor reads the ground before the new segment of the line is drawn.
+        self.color = self._image.color(self.x, self.y, self._drawing.ground)
         if begin != (self.x, self.y):
             self._draw(*begin, self.x, self.y, now)
 
@@ -164,10 +164,10 @@ class Turtle:
         if part is None:
             self._stroke = None
             return
-        self._image.line(*part, self.pen.colour, self.pen.width)
+        self._image.line(*part, self.pen.color, self.pen.width)
         stroke = self._stroke
         if stroke is None or stroke.points[-1][1:] != part[:2]:
-            stroke = self._stroke = Stroke(self.name, self.pen.colour, self.pen.width / PER_METRE)
+            stroke = self._stroke = Stroke(self.name, self.pen.color, self.pen.width / PER_METER)
             stroke.points.append((now, *part[:2]))
             self._drawing.strokes.append(stroke)
         stroke.points.append((now, *part[2:]))

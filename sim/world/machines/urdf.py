@@ -13,7 +13,7 @@ EFFORT = 10.0
 
 
 def urdf(robot: str, names: Sequence[str], joints: Sequence[JointModel], links: Sequence[str]) -> str:
-    """A robot with revolute joints, by name, and links in a row; lengths in metres, angles in radians.
+    """A robot with revolute joints, by name, and links in a row; lengths in meters, angles in radians.
 
     links: the names of the base, of each joint's link, and of a frame at the end of the last one.
     """

@@ -5,7 +5,7 @@ import pytest
 from geometry_msgs.msg import Twist
 
 from grader import Missed
-from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, travelled
+from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, traveled
 from grader.checks.motion import (
     after_a_touch,
     distances_to_line,
@@ -72,7 +72,7 @@ def test_arrives_names_the_goal_that_it_was_given_and_allows_its_tolerance():
 
 
 @pytest.mark.parametrize(("distance", "moved"), [(0.009, False), (0.01, False), (0.011, True)])
-def test_a_robot_that_moves_less_than_a_centimetre_did_not_move(distance, moved):
+def test_a_robot_that_moves_less_than_a_centimeter_did_not_move(distance, moved):
     hint = missed(arrives, driven([(0, 0), (distance, 0)]), (1.0, 0.0)).hint
     assert (hint == "") == moved
 
@@ -127,9 +127,9 @@ def test_a_very_short_segment_is_a_point():
     assert distances_to_line(point, [(0, 0), (1e-5, 0)]) == pytest.approx([1.0 - 1e-5], abs=1e-9)
 
 
-def test_travelled_is_the_length_of_the_path():
-    assert travelled(driven(SQUARE)) == pytest.approx(4.0)
-    assert travelled(driven([(0, 0), (3, 4)])) == pytest.approx(math.hypot(3, 4))
+def test_traveled_is_the_length_of_the_path():
+    assert traveled(driven(SQUARE)) == pytest.approx(4.0)
+    assert traveled(driven([(0, 0), (3, 4)])) == pytest.approx(math.hypot(3, 4))
 
 
 def test_stands_still_looks_at_the_last_moments_only():
@@ -146,7 +146,7 @@ def ending(*poses):
     return recording(path=path)
 
 
-def test_stands_still_allows_half_a_second_and_half_a_centimetre():
+def test_stands_still_allows_half_a_second_and_half_a_centimeter():
     stands_still(ending((0.51, 1.0, 0.0), (0.49, 0.0045, 0.0), (0.0, 0.0, 0.0)))
     assert missed(stands_still, ending((0.49, 0.0055, 0.0), (0.0, 0.0, 0.0))).saw == "it moved 0.005 m in that time"
     assert missed(stands_still, ending((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), last=11.0).expected == (
@@ -216,7 +216,7 @@ def test_a_robot_that_moved_in_the_last_second_or_long_ago_for_a_moment_did_not_
 
 
 @pytest.mark.parametrize(("distance", "stood"), [(0.0009, True), (0.0011, False)])
-def test_a_robot_that_creeps_by_less_than_a_millimetre_stood_still(distance, stood):
+def test_a_robot_that_creeps_by_less_than_a_millimeter_stood_still(distance, stood):
     assert stood_still(driven([*[(distance, 0.0)] * 30, (0.0, 0.0)]), 20.0) == stood
 
 

@@ -89,7 +89,7 @@ def test_feedback_that_is_right_has_no_faults():
 
 
 @pytest.mark.parametrize(("x", "wrong"), [(0.69, False), (0.71, True), (0.29, True), (math.nan, True)])
-def test_a_pose_may_be_two_tenths_of_a_metre_off(x, wrong):
+def test_a_pose_may_be_two_tenths_of_a_meter_off(x, wrong):
     hint = "current_pose is where the robot is in the map, not by its odometry: self.pose."
     expected = ("current_pose at (0.50, 0.50) m, at 2 s", f"({x:.2f}, 0.50) m", hint)
     assert faults((1.0, feedback()), (2.0, feedback(x=x))) == ([expected] if wrong else [])
@@ -109,7 +109,7 @@ LEAST, MOST = max(LINE, to_go(HALL, THERE) / 1.6) - 0.5, 1.5 * to_go(HALL, THERE
 )
 def test_a_distance_lies_between_the_straight_line_and_half_as_much_again_as_the_way(distance, wrong):
     found = faults((1.0, feedback(distance=distance)))
-    hint = "distance_remaining is the length of the path from the robot to its end, in metres."
+    hint = "distance_remaining is the length of the path from the robot to its end, in meters."
     expected = f"distance_remaining from {LEAST:.2f} to {MOST:.2f} m at 1 s"
     assert found == ([(expected, f"{distance:.2f} m", hint)] if wrong else [])
 

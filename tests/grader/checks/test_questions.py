@@ -249,7 +249,7 @@ def carried(*corners, begin=2.0, end=20.0):
         (1.05, 1.8, True),
     ],
 )
-def test_a_way_is_asked_about_that_is_half_as_long_again_and_two_metres_longer(out, line, asked):
+def test_a_way_is_asked_about_that_is_half_as_long_again_and_two_meters_longer(out, line, asked):
     row, path = carried((0.0, 0.0), (-out, 0.0), (line, 0.0))
     saw = f"From 2.0 to 20.0 s it drove {2 * out + line:.1f} m with order 1 aboard; in a straight line it is"
     assert any(text.startswith(saw) for text in texts(row, path=path)) == asked
@@ -294,7 +294,7 @@ def test_a_canceled_order_is_asked_about_only_where_it_was_aboard():
     assert "At 5.0 s order 1 was canceled, and it was aboard" in texts(aboard, path=drive(*HERE))
 
 
-def test_where_nothing_was_delivered_the_oldest_order_is_asked_about_and_a_way_of_five_metres():
+def test_where_nothing_was_delivered_the_oldest_order_is_asked_about_and_a_way_of_five_meters():
     rows = order(1, waiting=2.0), order(2, waiting=3.0)
     saw = "Order 1 came at 2.0 s and still waited at 8.0 s"
     assert texts(*rows, path=drive((0.0, 0.0, 0.0), (8.0, 4.9, 0.0)), seconds=8.0) == [saw]

@@ -160,7 +160,7 @@ def test_the_first_person_that_any_robot_met_counts_and_touches_are_in_the_order
     ("x", "y", "name"),
     [(1.0, 0.0, "shelf"), (0.9955, 0.0, "shelf"), (0.9945, 0.0, "box"), (-3.0, 0.0, "box"), (0.0, 2.5, "box")],
 )
-def test_a_box_that_was_touched_is_a_shelf_where_one_stands_within_half_a_centimetre(x, y, name):
+def test_a_box_that_was_touched_is_a_shelf_where_one_stands_within_half_a_centimeter(x, y, name):
     world = World(
         *("hall", "", (-9, -9, 9, 9), (0, 0, 0)),
         boxes=(Box(2.0, 0, 0, 2.0, 1.0),),

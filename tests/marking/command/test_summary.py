@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from grader.diagnosis.fault import NOT_STARTED
-from grader.marking.command.summary import CommonMistake, Concern, summarise
+from grader.marking.command.summary import CommonMistake, Concern, summarize
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.gradebook.student_standings import Standing
@@ -46,7 +46,7 @@ def results():
 
 
 def test_the_text_says_points_mistakes_what_to_look_at_and_times(results):
-    assert as_text(summarise("01_class", WORTH, results)) == (
+    assert as_text(summarize("01_class", WORTH, results)) == (
         "student  counter  line  essay  total   verdict  flags\n"
         "of             4     6      5     15\n"
         "anna           4     3      -      7    marked\n"
@@ -75,7 +75,7 @@ def test_the_text_says_points_mistakes_what_to_look_at_and_times(results):
 
 
 def test_only_so_many_mistakes_are_shown(results):
-    text = as_text(summarise("01_class", WORTH, results), mistakes=1)
+    text = as_text(summarize("01_class", WORTH, results), mistakes=1)
     assert "3 of 5" in text
     assert "1 of 5" not in text
 
@@ -87,14 +87,14 @@ def test_mistakes_are_counted_by_student_and_named_by_what_most_of_them_did():
         missed = verdict("line", 6, 0, saw=f"{number}.5 lines in 1e-{number} s", hint=hint)
         cell = replace(lined(0), verdicts=[missed, missed])
         results[str(number)] = student(str(number), cell)
-    (mistake,) = summarise("01_class", WORTH, results).mistakes
+    (mistake,) = summarize("01_class", WORTH, results).mistakes
     assert mistake == CommonMistake("line", "It keeps time.", 3, "0.5 lines in 1e-0 s", "Look at the timer.")
 
 
 def test_who_has_not_begun_an_exercise_has_made_no_mistake_in_it(results):
     empty = replace(lined(0), verdicts=[verdict("line", 0, 0, name="runs", sentence=NOT_STARTED)])
     results["anna"] = student("anna", counted(1), empty)
-    summary = summarise("01_class", WORTH, results)
+    summary = summarize("01_class", WORTH, results)
     assert summary.unstarted == {"line": 1}
     assert [(one.exercise, one.students) for one in summary.mistakes] == [("line", 2), ("counter", 1)]
     assert "\n\nNot started by so many of 5: line 1\n\nCommon mistakes\n" in as_text(summary)
@@ -104,7 +104,7 @@ def test_who_has_not_begun_an_exercise_has_made_no_mistake_in_it(results):
 def test_a_broken_check_without_words_and_a_stopped_notebook_are_looked_at():
     silent = replace(lined(0, needs_look=True), verdicts=[])
     stopped = student("anna", counted(1), silent, verdict="stopped", reason="It ran on.")
-    assert summarise("01_class", WORTH, {"anna": stopped}).concerns[1:] == [
+    assert summarize("01_class", WORTH, {"anna": stopped}).concerns[1:] == [
         Concern("anna", "stopped: It ran on."),
         Concern("anna", "a check of nodes/test_line is broken (see its outputs): set the points by hand"),
     ]
@@ -114,7 +114,7 @@ def test_what_was_repaired_and_has_few_points_is_looked_at(results):
     repairs = ["It was repaired.", "It was moved."]
     few = student("anna", counted(0.5), lined(0), verdict="repaired", repairs=repairs)
     enough = student("bob", counted(1), lined(0.25), verdict="repaired", repairs=["It was repaired."])
-    assert summarise("01_class", WORTH, {"anna": few, "bob": enough}).concerns[1:] == [
+    assert summarize("01_class", WORTH, {"anna": few, "bob": enough}).concerns[1:] == [
         Concern("anna", "repaired, and has 2 of 10 points: It was repaired. It was moved."),
     ]
 
@@ -122,7 +122,7 @@ def test_what_was_repaired_and_has_few_points_is_looked_at(results):
 def test_what_a_flag_says_of_a_test_cell_is_not_said_twice():
     unsure = replace(lined(0), needs_look=True, verdicts=[])
     found = student("anna", counted(1), unsure, flags=["The test cell `test_line`: it broke.", "Odd."])
-    assert summarise("01_class", WORTH, {"anna": found}).concerns[1:] == [
+    assert summarize("01_class", WORTH, {"anna": found}).concerns[1:] == [
         Concern("anna", "The test cell `test_line`: it broke. Set its points by hand."),
         Concern("anna", "Odd."),
     ]
@@ -139,7 +139,7 @@ def test_the_page_links_to_the_students_pages(course, results):
         "anna": "feedback/anna/01_class/nodes.html",
         "eve & co": "feedback/eve%20%26%20co/01_class/nodes.html",
     }
-    shown = as_page(summarise("01_class", WORTH, results), links)
+    shown = as_page(summarize("01_class", WORTH, results), links)
     assert '<td><a href="feedback/eve%20%26%20co/01_class/nodes.html">eve &amp; co</a></td>' in shown
     assert "<td>bob</td>" in shown
 
@@ -151,7 +151,7 @@ def test_a_terminal_obeys_nothing_of_the_table():
 
 
 def test_no_marks_give_a_summary_without_times():
-    nothing = summarise("01_class", WORTH, {})
+    nothing = summarize("01_class", WORTH, {})
     assert nothing.times is None
     assert as_text(nothing).splitlines()[0].split() == [
         "student", "test_counter", "test_line", "essay", "total", "verdict", "flags",
@@ -188,7 +188,7 @@ def test_a_spreadsheet_takes_nothing_for_a_formula():
 def test_a_terminal_obeys_nothing_that_a_submission_says(results):
     results["bob"] = replace(results["bob"], flags=["\x1b[2J\x9b gone \u202e backwards\r\n"])
     results["c\x1b[2Jleo"] = replace(results["bob"], student="c\x1b[2Jleo")
-    for text in (as_text(summarise("01_class", WORTH, results)), as_csv("01_class", results)):
+    for text in (as_text(summarize("01_class", WORTH, results)), as_csv("01_class", results)):
         assert not set(text) & {"\x1b", "\x9b", "\u202e", "\r"}
         assert "gone" in text and "leo" in text
 
@@ -210,7 +210,7 @@ class Page(HTMLParser):
 
 
 def test_the_page_says_the_same_and_loads_and_runs_nothing(results):
-    page = Page(as_page(summarise("01_class", WORTH, results)))
+    page = Page(as_page(summarize("01_class", WORTH, results)))
     assert {"Common mistakes", "For you to look at", "Times", "Look at the timer.", "5.5"} <= set(page.words)
     assert page.tags <= {
         "html", "head", "meta", "title", "style", "body", "h1", "h2", "p",
@@ -223,7 +223,7 @@ def test_what_a_submission_says_is_text_in_the_page(results):
     evil = "<script>steal()</script><img src=x onerror=steal()>"
     cell = replace(lined(0), verdicts=[verdict("line", 6, 0, saw=evil, hint=evil)])
     results["bob"] = student(evil, cell, flags=[evil], reason=evil, verdict="stopped")
-    page = Page(as_page(summarise("01_class", WORTH, results)))
+    page = Page(as_page(summarize("01_class", WORTH, results)))
     assert not page.tags & {"script", "img"}
     assert page.words.count(evil) >= 4
 
@@ -241,7 +241,7 @@ STANDINGS = {
 
 def test_points_by_hand_comments_and_penalties_are_in_table_csv_and_page(results):
     results = {"anna": results["anna"], "x" * 200: replace(results["bob"], student="x" * 200)}
-    summary = summarise("01_class", WORTH, results, STANDINGS, [(".hidden", "is left out")])
+    summary = summarize("01_class", WORTH, results, STANDINGS, [(".hidden", "is left out")])
     first, _, second, third = as_text(summary).splitlines()[:4]
     assert first.split() == ["student", "counter", "line", "essay", "total", "late", "verdict", "flags"]
     assert second.split() == ["anna", "4", "2", "4.5", "9", "2.0", "d:", "-1.5", "marked"]

@@ -30,7 +30,7 @@ def test_html_that_would_take_an_hour_to_clean_is_left_out(text):
     assert clean(text) == f"<p>{TOO_LONG}</p>"
 
 
-def test_a_cell_too_long_to_be_coloured_is_left_out():
+def test_a_cell_too_long_to_be_colored_is_left_out():
     long = "x" * (MAX_TEXT_CHARS + 1)
     cells = shortened(new_code_cell(long), new_markdown_cell(long), new_raw_cell(long))
     assert [cell.source for cell in cells] == [f"# {TOO_LONG}", TOO_LONG, TOO_LONG]

@@ -9,7 +9,7 @@ from nbgrader.api import Gradebook
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences, main, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
-from grader.notebook_format import normalise
+from grader.notebook_format import normalize
 from tests.marking.tiny import ROOT, grade
 
 HIDDEN = re.compile(r"^\s*### BEGIN (SOLUTION|HIDDEN TESTS)$(.*?)^\s*### END \1$", re.M | re.S)
@@ -40,7 +40,7 @@ def test_a_release_holds_the_questions_without_the_answers(tiny_course):
 
 def test_plain_nbgrader_releases_notebooks_in_the_one_form(tiny_course):
     nbgrader(tiny_course, "generate_assignment", "01_tiny")
-    assert normalise([tiny_course / "exercises"], check=True) == []
+    assert normalize([tiny_course / "exercises"], check=True) == []
 
 
 def test_a_release_made_twice_is_the_same_and_says_what_it_is_at(tiny_course, monkeypatch, capfd):

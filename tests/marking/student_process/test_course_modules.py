@@ -85,8 +85,8 @@ def test_an_import_that_is_refused_says_what_can_be_imported(start_student):
 
 def test_exercises_have_no_checks_and_grade_nothing_in_a_cell_that_is_no_test(start_student):
     student = start_student(packages=["grader.exercises.topics"])
-    student.run("from grader.exercises import topics\nfrom grader import catalogue")
-    checks = student.text("print([each.checks for each in catalogue.exercises().values() if each.checks])")
+    student.run("from grader.exercises import topics\nfrom grader import catalog")
+    checks = student.text("print([each.checks for each in catalog.exercises().values() if each.checks])")
     assert checks == "[]\n"
     text = "Not graded here: when a class is marked, the test cells are.\n"
     assert student.text("_ = topics.square.grade(int)") == text

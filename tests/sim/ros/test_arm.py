@@ -123,7 +123,7 @@ def test_joints_may_be_named_in_any_order():
     assert received(recording)[3.0][:2] == (0.6, 0.3)
 
 
-def test_a_cancelled_goal_stops_the_arm_at_once_and_holds_it():
+def test_a_canceled_goal_stops_the_arm_at_once_and_holds_it():
     recording = run(following((0.0, students.STEADY), cancel_after=0.5), world="arm", seconds=4, quiet=True)
     assert logged(recording) == [
         (0.0, "accepted"), (0.5, "CANCELED 0 The goal was canceled; the arm stops and stays."),
@@ -193,9 +193,9 @@ def test_a_cancel_at_the_very_end_is_no_fault(cancel_after):
     assert logged == [(0.0, "accepted"), (min(cancel_after, 2.0), end)]
 
 
-def test_a_goal_that_was_just_replaced_cannot_be_cancelled():
+def test_a_goal_that_was_just_replaced_cannot_be_canceled():
     assert dialogue(students.ChangesItsMind) == [
-        (0.0, "accepted"), (0.5, "ABORTED -1 The goal was replaced by a newer one."), (0.5, "cancelling 0"),
+        (0.0, "accepted"), (0.5, "ABORTED -1 The goal was replaced by a newer one."), (0.5, "canceling 0"),
         (0.5, "accepted"), (2.5, "SUCCEEDED 0 The goal was reached."),
     ]  # fmt: skip
 

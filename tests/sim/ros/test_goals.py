@@ -162,7 +162,7 @@ RESULT = "The 'result' field must be a sub message of type 'Fibonacci_Result'"
     (goals.FeedbackOfAnotherType, ("TypeError", (
         "Expected <class 'example_interfaces.action._fibonacci.Fibonacci_Feedback'>, got <class 'list'>"
     )), "aborted"),
-    (goals.JudgeRaises, ("ValueError", "no judgement"), ""),
+    (goals.JudgeRaises, ("ValueError", "no judgment"), ""),
 ], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
 def test_callbacks_that_fail_leave_what_was_done(server, error, status):
     recording = recorded(server, actions.Client)

@@ -190,7 +190,7 @@ def test_a_publisher_that_keeps_all_is_stopped_by_a_full_history():
     assert stamp == pytest.approx(1 + 4.0 + 0.1)  # from the 1001st on a message takes a millisecond
 
 
-def test_a_publisher_can_wait_for_acknowledgements():
+def test_a_publisher_can_wait_for_acknowledgments():
     recording = through(FAR, network.AsksWhetherAllHaveIt, network.Hearer)
     words = [(line.stamp, line.text) for line in recording.logs if line.node == "counter"]
     assert words == [

@@ -129,12 +129,12 @@ def test_turning_is_counter_clockwise_in_radians():
 
 def test_a_circle_has_radius_v_by_w():
     recording = run(drivers.Circler, world="yard", seconds=6, quiet=True)
-    centres = []
+    centers = []
     for stamp, odom in received(recording, "/odom"):
         position, yaw = odom.pose.pose.position, yaw_of(odom.pose.pose.orientation)
         if stamp > 0.5:
-            centres.append((position.x - 0.5 * math.sin(yaw), position.y + 0.5 * math.cos(yaw)))
-    assert centres == [pytest.approx(centres[0], abs=1e-9)] * len(centres)
+            centers.append((position.x - 0.5 * math.sin(yaw), position.y + 0.5 * math.cos(yaw)))
+    assert centers == [pytest.approx(centers[0], abs=1e-9)] * len(centers)
 
 
 def test_wheels_roll_as_far_as_the_robot_drives(straight):

@@ -36,8 +36,8 @@ def changed(path, **changes):
     [
         ({"lidar": {"rays": 10**9}}, "lidar.rays is 1000000000; write a whole number from 1 to 10000."),
         ({"robot": 3}, "robot is 3; write a [robot] table with any of radius, mass, "),
-        ({"bounds": [0, 0]}, "bounds is [0, 0]; write [xmin, ymin, xmax, ymax] (metres) with "),
-        ({"walls": [[[0, 0]]]}, "walls[0] is [[0, 0]]; write two or more corners [x, y] (metres), "),
+        ({"bounds": [0, 0]}, "bounds is [0, 0]; write [xmin, ymin, xmax, ymax] (meters) with "),
+        ({"walls": [[[0, 0]]]}, "walls[0] is [[0, 0]]; write two or more corners [x, y] (meters), "),
         ({"name": ["room"]}, "name is ['room']; write a text."),
         ({"os": "system"}, "os is not a known key; the keys are bounds, start, "),
     ],

@@ -1,4 +1,4 @@
-"""Templates give the bytes that setting fields and serialising would give."""
+"""Templates give the bytes that setting fields and serializing would give."""
 
 import array
 import random
@@ -65,10 +65,10 @@ def test_a_value_too_many_or_too_few_is_refused():
 
 
 def test_float32_and_single_bytes_are_patched():
-    pose, colour = Pose(), Color()
+    pose, color = Pose(), Color()
     template = Template(pose, ["x", "theta"])
     pose.x, pose.theta = 5.5, -0.25
     assert bytes(template.fill(5.5, -0.25)) == expected(pose)
-    template = Template(colour, ["r", "g", "b"])
-    colour.r, colour.g, colour.b = 179, 17, 255
-    assert bytes(template.fill(179, 17, 255)) == expected(colour)
+    template = Template(color, ["r", "g", "b"])
+    color.r, color.g, color.b = 179, 17, 255
+    assert bytes(template.fill(179, 17, 255)) == expected(color)

@@ -20,7 +20,7 @@ def test_timers_on_every_kind_of_clock_tick_together():
     assert stamps(timing.Timers, 2) == [(stamp, name) for stamp in (1.0, 2.0) for name in names]
 
 
-def test_timers_can_be_cancelled_reset_and_made_faster():
+def test_timers_can_be_canceled_reset_and_made_faster():
     assert [stamp for stamp, _ in stamps(timing.ResetCancelChange)] == [0.5, 1.0, 2.5, 3.0, 3.5, 3.75, 4.0]
     assert [stamp for stamp, _ in stamps(timing.Autostart, 2.5)] == [1.5, 2.0, 2.5]
 

@@ -112,9 +112,9 @@ def test_two_ponds_in_namespaces_and_a_turtle_that_moves_as_the_other_does(mimic
     assert (mimicked.errors, mimicked.ended.reason) == ([], "time")
     one, other = (mimicked.messages(f"/turtlesim{number}/turtle1/pose") for number in (1, 2))
     assert len(one) == len(other) == 500
-    centre = mimicked.path[0].x, mimicked.path[0].y + 2
+    center = mimicked.path[0].x, mimicked.path[0].y + 2
     for received in (*one[100:], *other[100:]):
-        assert math.dist((received.message.x, received.message.y), centre) == pytest.approx(2.0, abs=0.05)
+        assert math.dist((received.message.x, received.message.y), center) == pytest.approx(2.0, abs=0.05)
         assert received.message.angular_velocity == 1.0
     assert {each.sender for each in mimicked.messages("/turtlesim2/turtle1/cmd_vel")} == {"/mimic"}
 
@@ -123,10 +123,10 @@ def test_the_picture_shows_the_first_pond_and_the_other_has_its_own(mimicked):
     last = mimicked.messages("/turtlesim1/turtle1/pose")[-1].message
     assert mimicked.path[-1][1:3] == pytest.approx((last.x, last.y), abs=0.1)
     assert mimicked.drawing.ground == (69, 86, 255)
-    colours = [
+    colors = [
         mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)
     ]
-    assert colours == [69, 200]
+    assert colors == [69, 200]
     texts = [line.text for line in mimicked.logs if line.node == "launch"]
     assert texts == [TAKEN, ONE_MORE]
 

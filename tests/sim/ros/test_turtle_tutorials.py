@@ -29,8 +29,8 @@ def last(recording, name):
 def test_a_driver_swims_in_circles():
     recording = in_pond(turtles.Driver, seconds=10)
     poses = [pose for pose in recording.path if pose.stamp > 1.0]
-    centre = poses[0].x - 2 * math.sin(poses[0].yaw), poses[0].y + 2 * math.cos(poses[0].yaw)
-    assert all(math.dist(pose[1:3], centre) == pytest.approx(2.0, abs=0.02) for pose in poses)
+    center = poses[0].x - 2 * math.sin(poses[0].yaw), poses[0].y + 2 * math.cos(poses[0].yaw)
+    assert all(math.dist(pose[1:3], center) == pytest.approx(2.0, abs=0.02) for pose in poses)
 
 
 def test_a_follower_comes_to_the_turtle():

@@ -25,13 +25,13 @@ def news(recording, levels=("INFO", "WARN", "ERROR")):
     return [(line.stamp, line.text) for line in recording.logs[2:] if line.level in levels]
 
 
-def colours(recording):
-    """What turtle1 saw beneath itself: (stamp, colour) whenever that changed."""
+def colors(recording):
+    """What turtle1 saw beneath itself: (stamp, color) whenever that changed."""
     seen = []
     for received in recording.messages("/turtle1/color_sensor"):
-        colour = received.message.r, received.message.g, received.message.b
-        if not seen or seen[-1][1] != colour:
-            seen.append((received.stamp, colour))
+        color = received.message.r, received.message.g, received.message.b
+        if not seen or seen[-1][1] != color:
+            seen.append((received.stamp, color))
     return seen
 
 
@@ -167,7 +167,7 @@ def test_teleporting_draws_a_line_with_the_pen_that_is_down():
     strokes = recording.drawing.strokes
     points = [[(round(x, 3), round(y, 3)) for _, x, y in stroke.points[:3]] for stroke in strokes]
     drawn = [
-        (stroke.colour, round(stroke.width * 45), line) for stroke, line in zip(strokes, points, strict=True)
+        (stroke.color, round(stroke.width * 45), line) for stroke, line in zip(strokes, points, strict=True)
     ]
     assert drawn == [
         (PEN, 3, [(5.544, 5.544), (1.0, 1.0), (1.0, 3.0)]),
@@ -182,15 +182,15 @@ def test_a_lifted_pen_draws_nothing_and_another_one_draws():
         seconds=1,
     )  # fmt: skip
     (stroke,) = recording.drawing.strokes
-    assert (stroke.colour, stroke.points[0][0]) == ((255, 0, 9), pytest.approx(0.816))
+    assert (stroke.color, stroke.points[0][0]) == ((255, 0, 9), pytest.approx(0.816))
 
 
-def test_the_colour_beneath_is_that_of_the_pond_or_of_a_line():
+def test_the_color_beneath_is_that_of_the_pond_or_of_a_line():
     recording = in_pond(
         (0.5, "swim", "turtle1", 1.0), (1.0, "set", "background_r", 150), (1.1, "set", "background_g", 300),
         (1.2, "clear"), seconds=1.5,
     )  # fmt: skip
-    assert colours(recording)[:2] == [(0.016, BLUE), (0.528, PEN)]
+    assert colors(recording)[:2] == [(0.016, BLUE), (0.528, PEN)]
     assert recording.drawing.grounds == [(0.0, BLUE), (1.0, (150, 86, 255))]
     assert news(recording) == [
         (1.0, "Set: True"),
@@ -231,7 +231,7 @@ def test_a_recording_comes_back_from_its_file_with_what_was_drawn(tmp_path, ahea
     assert again.digest == ahead.digest
 
 
-def test_a_background_of_a_world_file_that_is_no_colour():
+def test_a_background_of_a_world_file_that_is_no_color():
     data = World.load("turtlesim").to_data() | {"pond": {"background": [0, 0, 256]}}
     with pytest.raises(ValueError) as caught:
         World.from_data(data)

@@ -68,7 +68,7 @@ def test_programs_prefix_and_manifest_of_a_package_are_printed(execute, package)
         ("pkg prefix two_robot", "Package not found"),
         ("pkg prefix --share two_robot", "Package not found"),
         ("pkg xml two_robot", "Package not found"),
-        ("pkg xml two_robots -t licence", "XML tag not found"),
+        ("pkg xml two_robots -t license", "XML tag not found"),
         ("run two_robot driver", "Package 'two_robot' not found: did you mean two_robots?"),
         (
             "run two_robots drivr",

@@ -28,7 +28,7 @@ def execute(line: str) -> tuple[int, str]:
 
 
 def made(line: str, folder: Path) -> str:
-    """A command, its output, and each file that it writes, except the text of a licence."""
+    """A command, its output, and each file that it writes, except the text of a license."""
     status, lines = execute(line + WHO)
     files = {
         path.relative_to(folder).as_posix(): "(…)\n" if path.name == "LICENSE" else path.read_text()
@@ -58,7 +58,7 @@ def test_catkin_reads_every_package_xml(tmp_path, monkeypatch):
     assert {one.get_build_type() for one in read.values()} == {"ament_python", "ament_cmake"}
 
 
-def test_a_licence_that_the_course_has_is_written(tmp_path, monkeypatch):
+def test_a_license_that_the_course_has_is_written(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     execute(COMMANDS[0])
     assert "Apache License" in (tmp_path / "my_pkg" / "LICENSE").read_text()

@@ -14,7 +14,7 @@ from playwright.sync_api import expect
 
 from sim.standalone import live_page, server
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import COLOURS, chromium
+from tests.browser.pictures import COLORS, chromium
 from tests.patience import PATIENCE
 from tests.sim.standalone.programs import ended, robot
 
@@ -255,7 +255,7 @@ def test_turtles_and_their_lines_are_shown(browser):
         tab.goto(re.search(r"http://\S+", running.offer)[0])
         tab.get_by_role("application").focus()
         tab.keyboard.down("ArrowUp")
-        tab.wait_for_function(f"() => ({COLOURS})(document.querySelector('canvas')).includes('b3b8ff')")
+        tab.wait_for_function(f"() => ({COLORS})(document.querySelector('canvas')).includes('b3b8ff')")
         tab.keyboard.up("ArrowUp")
         names = [row.locator("span").first.inner_text() for row in tab.locator(".topic").all()]
         assert names == ["/turtle1/cmd_vel", "/turtle1/color_sensor", "/turtle1/pose"]

@@ -33,7 +33,7 @@ def labels(figure):
     return figure.axes[0].get_legend_handles_labels()[1]
 
 
-def test_the_path_is_drawn_in_metres_over_the_world():
+def test_the_path_is_drawn_in_meters_over_the_world():
     figure = plot_path(driven())
     axes = figure.axes[0]
     assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == (
@@ -240,7 +240,7 @@ def test_the_animation_shows_the_robot_on_its_path():
     height, width = first.shape[:2]
     below_clock = changed[changed[:, 0] > 30]
     assert len(below_clock) > 50
-    assert np.ptp(below_clock[:, 1]) > 0.1 * width  # along x by a metre
+    assert np.ptp(below_clock[:, 1]) > 0.1 * width  # along x by a meter
     assert np.ptp(below_clock[:, 0]) < 0.1 * height  # and not along y
 
 

@@ -100,7 +100,7 @@ def test_topics_and_log_lines_are_rows_of_ticks():
     assert rows[0]["x"] == [1.0, 2.0, 3.0, 4.0, 5.0]
     lines = [LogLine(1.0, "INFO", "a", "x"), LogLine(2.0, "WARN", "a", "y")]
     logs = data(plot_logs(recording(logs=lines)))["rows"]
-    assert [(row["name"], row["x"], row["colour"]) for row in logs] == [
+    assert [(row["name"], row["x"], row["color"]) for row in logs] == [
         ("a, INFO", [1.0], 0),
         ("a, WARN", [2.0], "caution"),
     ]

@@ -9,7 +9,7 @@ def drawn(*lines):
     return axes
 
 
-def test_a_row_for_each_logger_and_a_colour_for_each_level():
+def test_a_row_for_each_logger_and_a_color_for_each_level():
     axes = drawn((1.0, "INFO", "pump", "a"), (2.0, "ERROR", "pump", "b"), (3.0, "INFO", "robot1.lamp", "c"))
     strokes = {line.get_label(): (list(line.get_xdata()), list(line.get_ydata())) for line in axes.lines}
     assert strokes == {"INFO": ([1.0, 3.0], [0, 1]), "ERROR": ([2.0], [0])}

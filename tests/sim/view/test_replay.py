@@ -101,7 +101,7 @@ def test_a_recording_has_its_replay_and_a_notebook_shows_it(drive):
     assert re.fullmatch(r"<Replay of 20 s: \d+ KiB>", repr(shown))
 
 
-def test_poses_and_scans_are_where_they_were_to_the_millimetre(drive):
+def test_poses_and_scans_are_where_they_were_to_the_millimeter(drive):
     data = unpacked(drive)
     ((xs, ys, yaws),) = data["tracks"]
     assert summed(data["stamps"]) / 1000 == pytest.approx([pose.stamp for pose in drive.path])

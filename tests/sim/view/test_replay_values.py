@@ -140,6 +140,6 @@ def test_a_replay_has_the_key_of_its_run(drive):
     assert inflated(pack(drive, 1.0))["run"] == drive.digest[:12]
 
 
-def test_what_moves_by_less_than_a_millimetre_rests():
+def test_what_moves_by_less_than_a_millimeter_rests():
     path = [(0, 0), (1, 0), *[(1 + math.sin(n) * 1e-4, 0) for n in range(10)]]
     assert last_event(driven(path)) == 0.0

@@ -29,8 +29,8 @@ def swim():
     return run(script(*steps), world="turtlesim", seconds=3, quiet=True)
 
 
-def colours(data, share=0.0005):
-    """The colours of a picture that cover more than this share of it."""
+def colors(data, share=0.0005):
+    """The colors of a picture that cover more than this share of it."""
     image = np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).reshape(-1, 3)
     found, counts = np.unique(image, axis=0, return_counts=True)
     often = found[counts > share * len(image)]
@@ -43,7 +43,7 @@ def unpacked(recording):
 
 def test_a_figure_has_the_pond_with_its_final_drawing_and_turtles(swim):
     figure = plot_path(swim)
-    shown = colours(png(figure))
+    shown = colors(png(figure))
     assert {"4556ff", "ff0000", "7bc96f"} <= shown
     assert "b3b8ff" not in shown  # erased
     assert figure.description.endswith("turtle1")
@@ -77,8 +77,8 @@ def test_the_live_picture_shows_what_is_there_now(swim):
 def test_an_animation_draws_lines_and_omits_removed_turtles(swim):
     image = Image.open(io.BytesIO(bytes(animate(swim, speed=1.0, frames_per_second=2))))
 
-    def near(frame, *colour):
-        return bool((np.abs(frame - colour).max(axis=1) < 50).sum() > 20)
+    def near(frame, *color):
+        return bool((np.abs(frame - color).max(axis=1) < 50).sum() > 20)
 
     seen = []
     for stamp in (0.0, 1.0, 3.0):

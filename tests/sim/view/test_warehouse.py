@@ -1,4 +1,4 @@
-"""A warehouse in pictures: places have their names, and people their colour."""
+"""A warehouse in pictures: places have their names, and people their color."""
 
 import io
 

@@ -9,7 +9,7 @@ from sim.world import DT, Body, Box, LidarModel, MovableBox, RobotModel, Simulat
 
 GRAVITY = 9.80665
 RADIUS, FORCE = RobotModel().radius, RobotModel().max_force
-MILLIMETRE = 1e-3
+MILLIMETER = 1e-3
 QUIET = LidarModel(noise=0)
 
 
@@ -29,7 +29,7 @@ def drive(simulation, v, until, w=0.0):
 
 
 def spread(box, count=400):
-    """The mean distance of the box's points from its centre, by summing over a grid."""
+    """The mean distance of the box's points from its center, by summing over a grid."""
     u = (np.arange(count) + 0.5) / count - 0.5
     return np.hypot(*np.meshgrid(u * box.width, u * box.height)).mean()
 
@@ -59,15 +59,15 @@ def test_a_force_above_the_floors_grip_moves_a_box(share):
 def test_a_force_below_the_floors_grip_moves_no_box(share):
     friction = share * FORCE / GRAVITY
     pushed = simulation(MovableBox(0.251, 0, 0, 0.3, 0.3, mass=1.0, friction=friction))
-    assert drive(pushed, 0.01, until=60)[-1][0] == pytest.approx(0.251, abs=1.5 * MILLIMETRE)
+    assert drive(pushed, 0.01, until=60)[-1][0] == pytest.approx(0.251, abs=1.5 * MILLIMETER)
     assert pushed.robot.odometry.x > 0.5
 
 
 def test_a_heavy_box_stops_the_robot():
     pushed = simulation(MovableBox(1.0, 0, 0, 0.3, 0.3, mass=20.0))
     drive(pushed, 0.6, until=6)
-    assert pushed.poses[1][0] == pytest.approx(1.0, abs=MILLIMETRE)
-    assert pushed.robot.pose[0] == pytest.approx(0.85 - RADIUS, abs=2 * MILLIMETRE)
+    assert pushed.poses[1][0] == pytest.approx(1.0, abs=MILLIMETER)
+    assert pushed.robot.pose[0] == pytest.approx(0.85 - RADIUS, abs=2 * MILLIMETER)
     assert pushed.robot.odometry.x > 3
 
 
@@ -98,7 +98,7 @@ def test_one_box_pushes_the_next():
     drive(pushed, 0.3, until=4)
     _, near, far = pushed.poses
     assert near[0] > 0.9
-    assert far[0] - near[0] == pytest.approx(0.3, abs=2 * MILLIMETRE)
+    assert far[0] - near[0] == pytest.approx(0.3, abs=2 * MILLIMETER)
 
 
 def test_a_box_pushed_off_its_middle_turns():

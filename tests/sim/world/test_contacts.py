@@ -8,7 +8,7 @@ from sim.world import DT, Box, Circle, RobotModel, Simulation, World
 
 BOUNDS = (-5, -5, 5, 5)
 RADIUS = RobotModel().radius
-MILLIMETRE = 1e-3 + 1e-9  # and the rounding of coordinates
+MILLIMETER = 1e-3 + 1e-9  # and the rounding of coordinates
 WALL = ((1.0, -5.0), (1.0, 5.0))
 
 
@@ -38,12 +38,12 @@ def drive(simulation, v, w, until):
     ids=["wall", "box", "corner of a box", "circle"],
 )
 @pytest.mark.parametrize("v", [0.1, 0.6])
-def test_robot_stops_at_an_obstacle_within_a_millimetre(obstacles, v):
+def test_robot_stops_at_an_obstacle_within_a_millimeter(obstacles, v):
     simulation = Simulation(world(**obstacles))
     depths = [x - (1 - RADIUS) for x in drive(simulation, v, 0, until=12)]
     first = next(index for index, depth in enumerate(depths) if depth > 0)
     assert depths[first] <= v * DT  # a step ends before its collisions are found
-    assert min(depths[first + 1 :]) >= 0 and max(depths[first + 1 :]) <= MILLIMETRE
+    assert min(depths[first + 1 :]) >= 0 and max(depths[first + 1 :]) <= MILLIMETER
 
 
 @pytest.mark.parametrize("v", [0.6, 3.0, 10.0])
@@ -74,7 +74,7 @@ def test_robot_slides_along_a_wall_and_keeps_its_heading():
     simulation = Simulation(world(start=(0, 0, heading), walls=(WALL,)))
     drive(simulation, 0.5, 0, until=8)
     x, y, yaw = simulation.robot.pose
-    assert 0 <= x - (1 - RADIUS) <= MILLIMETRE
+    assert 0 <= x - (1 - RADIUS) <= MILLIMETER
     assert y > 2.5
     assert yaw == pytest.approx(heading, abs=0.02)
 

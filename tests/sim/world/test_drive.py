@@ -74,11 +74,11 @@ def test_steady_turn_is_an_exact_circle():
     v, w = 0.4, 0.8
     keep_driving(simulation, v, w, until=1)
     x, y, yaw = simulation.robot.pose
-    centre = x - v / w * math.sin(yaw), y + v / w * math.cos(yaw)
+    center = x - v / w * math.sin(yaw), y + v / w * math.cos(yaw)
     for tenth in range(11, 101):
         keep_driving(simulation, v, w, until=tenth / 10)
         x, y, now = simulation.robot.pose
-        assert math.dist(centre, (x, y)) == pytest.approx(v / w, abs=1e-9)
+        assert math.dist(center, (x, y)) == pytest.approx(v / w, abs=1e-9)
         assert now == pytest.approx(wrap(yaw + w * (tenth / 10 - 1)), abs=1e-9)
 
 

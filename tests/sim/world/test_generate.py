@@ -138,7 +138,7 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
         (
             "maze",
             {"cell": 0.1},
-            "A generated maze cannot be: cell is 0.1; write a number from 0.4 to 5 (metres).",
+            "A generated maze cannot be: cell is 0.1; write a number from 0.4 to 5 (meters).",
         ),
         (
             "maze",

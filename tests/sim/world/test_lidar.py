@@ -132,8 +132,8 @@ def test_noise_is_gaussian_with_the_stated_deviation():
     assert abs(errors.mean()) < 5 / math.sqrt(count)
     assert abs(errors.std() - 1) < 5 / math.sqrt(2 * count)
     assert (np.abs(errors) < 1).mean() == pytest.approx(math.erf(1 / math.sqrt(2)), abs=0.01)
-    neighbours = np.corrcoef(errors[:, :-1].ravel(), errors[:, 1:].ravel())[0, 1]
-    assert abs(neighbours) < 5 / math.sqrt(count)
+    neighbors = np.corrcoef(errors[:, :-1].ravel(), errors[:, 1:].ravel())[0, 1]
+    assert abs(neighbors) < 5 / math.sqrt(count)
 
 
 def test_each_scan_has_new_noise():

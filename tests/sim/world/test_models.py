@@ -20,11 +20,11 @@ from sim.world import (
 )
 
 NAME = "a name of small letters, digits and single underscores that begins with a letter"
-ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
+ROUTE = "[[x, y], ...], two or more corners (meters), each different from the one before"
 
 
 @pytest.mark.parametrize(("model", "parameters", "sentence"), [
-    (RobotModel, {"radius": -1}, "radius is -1; write a number from 0.0001 to 1000 (metres)."),
+    (RobotModel, {"radius": -1}, "radius is -1; write a number from 0.0001 to 1000 (meters)."),
     (RobotModel, {"mass": 0}, "mass is 0; write a number from 0.0001 to 1000000 (kg)."),
     (RobotModel, {"mass": 5e-324}, "mass is 5e-324; write a number from 0.0001 to 1000000 (kg)."),
     (RobotModel, {"max_v": math.nan}, "max_v is nan; write a number from 0.0001 to 1000000 (m/s)."),
@@ -35,7 +35,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
      "command_timeout is 0; write a number from 0.01 to 1000 (seconds)."),
     (RobotModel, {"stamped": 1}, "stamped is 1; write true or false."),
     (RobotModel, {"friction": -0.1}, "friction is -0.1; write a number from 0 to 10."),
-    (RobotModel, {"odometry": (0, 1)}, "odometry is [0, 1]; write [x, y, yaw] (metres and radians)."),
+    (RobotModel, {"odometry": (0, 1)}, "odometry is [0, 1]; write [x, y, yaw] (meters and radians)."),
     (RobotModel, {"max_v": 11},
      "max_v is 11.0; write 10 m/s or less, one radius in a physics step of 0.01 s."),
     (RobotModel, {"max_force": 2},
@@ -47,11 +47,11 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (LidarModel, {"rays": 36.0}, "rays is 36.0; write a whole number from 1 to 10000."),
     (LidarModel, {"rays": 10**5000},
      "rays is a number of thousands of digits; write a whole number from 1 to 10000."),
-    (LidarModel, {"range_min": 3.5}, "range_min is 3.5; write a number below range_max, 3.5 (metres)."),
-    (LidarModel, {"noise": -1}, "noise is -1; write a number from 0 to 1000000 (metres)."),
+    (LidarModel, {"range_min": 3.5}, "range_min is 3.5; write a number below range_max, 3.5 (meters)."),
+    (LidarModel, {"noise": -1}, "noise is -1; write a number from 0 to 1000000 (meters)."),
     (RobotModel, {"mass": 1e300}, "mass is 1e+300; write a number from 0.0001 to 1000000 (kg)."),
     (ImuModel, {"gyro_noise": 1e300}, "gyro_noise is 1e+300; write a number from 0 to 1000000 (rad/s)."),
-    (LidarModel, {"x": 2}, "x is 2; write a number from -1 to 1 (metres)."),
+    (LidarModel, {"x": 2}, "x is 2; write a number from -1 to 1 (meters)."),
     (LidarModel, {"yaw": math.inf}, "yaw is inf; write a finite number (radians)."),
     (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
     (LidarModel, {"silent": [[4, 2]]}, "silent is [[4, 2]]; write a list of spans [begin, end] (s)."),
@@ -61,9 +61,9 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a number from 0 to 1000000 (rad/s)."),
     (ImuModel, {"accel_noise": None}, "accel_noise is None; write a number from 0 to 1000000 (m/s^2)."),
     (Box, {"x": 1e9, "y": 0, "yaw": 0, "width": 1, "height": 1},
-     "x is 1000000000.0; write a number from -1000 to 1000 (metres)."),
+     "x is 1000000000.0; write a number from -1000 to 1000 (meters)."),
     (MovableBox, {"x": 0, "y": 0, "yaw": 0, "width": 1e-300, "height": 1},
-     "width is 1e-300; write a number from 0.0001 to 1000 (metres)."),
+     "width is 1e-300; write a number from 0.0001 to 1000 (meters)."),
     (MovableBox, {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "mass": -1},
      "mass is -1; write a number from 0.0001 to 1000000 (kg)."),
     (MovableBox, {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "friction": 0},
@@ -71,7 +71,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (OtherRobot, {"name": "Bob 1", "start": (0, 0, 0)}, f"name is 'Bob 1'; write {NAME}."),
     (OtherRobot, {"name": "a__b", "start": (0, 0, 0)}, f"name is 'a__b'; write {NAME}."),
     (OtherRobot, {"name": "a", "start": (0, 0)},
-     "start is [0, 0]; write [x, y, yaw] (metres and radians)."),
+     "start is [0, 0]; write [x, y, yaw] (meters and radians)."),
     (OtherRobot, {"name": "a", "start": (0, 0, 0), "route": ((1, 1),)},
      f"route is [[1, 1]]; write {ROUTE}."),
     (OtherRobot, {"name": "a", "start": (0, 0, 0), "route": ((1, 1), (2, 2), (1, 1))},
@@ -88,9 +88,9 @@ def test_invalid_values(model, parameters, sentence):
     [
         (
             {"start": (math.nan, 0, 0)},
-            "start is [nan, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+            "start is [nan, 0, 0]; write [x, y, yaw] (meters and radians) inside the bounds.",
         ),
-        ({"goal": (9, 9)}, "goal is [9.0, 9.0]; write [x, y] (metres) inside the bounds."),
+        ({"goal": (9, 9)}, "goal is [9.0, 9.0]; write [x, y] (meters) inside the bounds."),
         ({"lidar": 3}, "lidar is 3; write a LidarModel."),
         (
             {"lidar": LidarModel(x=0.08, y=-0.08)},
@@ -102,7 +102,7 @@ def test_invalid_values(model, parameters, sentence):
         (
             {"walls": (((1, 1), (1, 1)),)},
             "walls is [[[1, 1], [1, 1]]]; write a list of walls, each a list of two or more corners [x, y] "
-            "(metres), each different from the one before.",
+            "(meters), each different from the one before.",
         ),
     ],
 )

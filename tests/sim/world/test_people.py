@@ -87,7 +87,7 @@ def test_equal_runs_are_equal_however_they_are_cut():
     [
         (
             {"route": ()},
-            "Person: route is []; write [[x, y], ...], two or more corners (metres), "
+            "Person: route is []; write [[x, y], ...], two or more corners (meters), "
             "each different from the one before.",
         ),
         ({"speed": 5.0}, "Person: speed is 5.0; write a number from 0.0001 to 3 (m/s)."),

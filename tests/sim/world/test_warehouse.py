@@ -105,9 +105,9 @@ def test_warehouses_that_cannot_be_generated(change, sentence):
     [
         (
             *("warehouse", "pickups", []),
-            "warehouse.pickups is []; write a list of one or more poses [x, y, yaw] (metres and radians).",
+            "warehouse.pickups is []; write a list of one or more poses [x, y, yaw] (meters and radians).",
         ),
-        ("warehouse", "desk", [1, 2], "warehouse.desk is [1, 2]; write [x, y, yaw] (metres and radians)."),
+        ("warehouse", "desk", [1, 2], "warehouse.desk is [1, 2]; write [x, y, yaw] (meters and radians)."),
         (
             *("warehouse", "interval", 0),
             "warehouse.interval is 0; write a number from 0.0001 to 100000 (seconds).",
@@ -174,7 +174,7 @@ def test_people_walk_past_the_robots_that_charge():
     [
         (None, (1, 1), "write no charger for two, where robots have no battery."),
         (BatteryModel((0, 0)), (9, 9), "write a charger for two that lies inside the bounds."),
-        (BatteryModel((0, 0)), (1,), "OtherRobot: charger is [1]; write [x, y] (metres)."),
+        (BatteryModel((0, 0)), (1,), "OtherRobot: charger is [1]; write [x, y] (meters)."),
     ],
 )
 def test_a_charger_that_cannot_be_is_refused(battery, charger, sentence):

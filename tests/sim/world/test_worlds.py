@@ -175,20 +175,20 @@ def test_file_that_is_not_toml(tmp_path):
 
 @pytest.mark.parametrize(("good", "bad", "sentence"), [
     ("bounds = [-3, -3, 3, 3]\n", "",
-     "bounds is missing; write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax."),
+     "bounds is missing; write [xmin, ymin, xmax, ymax] (meters) with xmin < xmax and ymin < ymax."),
     ("[-3, -3, 3, 3]", "[3, -3, -3, 3]",
      "bounds is [3, -3, -3, 3]; "
-     "write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax."),
+     "write [xmin, ymin, xmax, ymax] (meters) with xmin < xmax and ymin < ymax."),
     ("start = [0, 0, 0]", "",
-     "start is missing; write [x, y, yaw] (metres and radians) inside the bounds."),
+     "start is missing; write [x, y, yaw] (meters and radians) inside the bounds."),
     ("start = [0, 0, 0]", "start = [0, nan, 0]",
-     "start is [0, nan, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+     "start is [0, nan, 0]; write [x, y, yaw] (meters and radians) inside the bounds."),
     ("start = [0, 0, 0]", "start = [9, 0, 0]",
-     "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+     "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (meters and radians) inside the bounds."),
     ("start = [0, 0, 0]", "start = [0, 0]",
-     "start is [0, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+     "start is [0, 0]; write [x, y, yaw] (meters and radians) inside the bounds."),
     ("start = [0, 0, 0]", "start = [true, 0, 0]",
-     "start is [True, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+     "start is [True, 0, 0]; write [x, y, yaw] (meters and radians) inside the bounds."),
     (CARD, "",
      f"card is missing; write a [card] table with a text for each of {', '.join(HEADINGS)}."),
     (CARD, "card = 'text'",
@@ -206,48 +206,48 @@ def test_a_file_with_a_wrong_line(tmp_path, good, bad, sentence):
 
 
 @pytest.mark.parametrize(("more", "sentence"), [
-    ("goal = [0, inf]", "goal is [0, inf]; write [x, y] (metres) inside the bounds."),
+    ("goal = [0, inf]", "goal is [0, inf]; write [x, y] (meters) inside the bounds."),
     ("walls = 3",
-     "walls is 3; write a list of walls, each a list of two or more corners [x, y] (metres), "
+     "walls is 3; write a list of walls, each a list of two or more corners [x, y] (meters), "
      "each different from the one before."),
     ("walls = [[[0, 1], [1, 1]], [[2, 2]]]",
-     "walls[1] is [[2, 2]]; write two or more corners [x, y] (metres), "
+     "walls[1] is [[2, 2]]; write two or more corners [x, y] (meters), "
      "each different from the one before."),
     ("walls = [[[2, 2], [2, 2]]]",
-     "walls[0] is [[2, 2], [2, 2]]; write two or more corners [x, y] (metres), "
+     "walls[0] is [[2, 2], [2, 2]]; write two or more corners [x, y] (meters), "
      "each different from the one before."),
     ("walls = [[[2, 2], ['a', 2]]]",
-     "walls[0] is [[2, 2], ['a', 2]]; write two or more corners [x, y] (metres), "
+     "walls[0] is [[2, 2], ['a', 2]]; write two or more corners [x, y] (meters), "
      "each different from the one before."),
     ("walls = [7]",
-     "walls[0] is 7; write two or more corners [x, y] (metres), each different from the one before."),
+     "walls[0] is 7; write two or more corners [x, y] (meters), each different from the one before."),
     ("boxes = [1]",
      "boxes is [1]; write a [[boxes]] table for each, with x, y, yaw, width and height."),
     ("circles = 1", "circles is 1; write a [[circles]] table for each, with x, y and radius."),
     ("[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1",
-     "boxes[0].width is -1; write a number from 0.0001 to 1000 (metres)."),
+     "boxes[0].width is -1; write a number from 0.0001 to 1000 (meters)."),
     ("[[boxes]]\nx = 1\ny = 1\nyaw = inf\nwidth = 1\nheight = 1",
      "boxes[0].yaw is inf; write a finite number (radians)."),
     ("[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1",
-     "boxes[0].height is missing; write a number from 0.0001 to 1000 (metres)."),
+     "boxes[0].height is missing; write a number from 0.0001 to 1000 (meters)."),
     ("[[circles]]\nx = 1\ny = 1\nradius = 0",
-     "circles[0].radius is 0; write a number from 0.0001 to 1000 (metres)."),
+     "circles[0].radius is 0; write a number from 0.0001 to 1000 (meters)."),
     ("[[circles]]\nx = 1\ny = 1\nradius = 1\n[[circles]]\nx = 1\ny = 1\nradus = 1",
      "circles[1].radus is not a known key; did you mean radius?"),
     ("imu = 3", f"imu is 3; write a [imu] table with any of {IMU}."),
     ("[[lidar]]", f"lidar is [{{}}]; write a [lidar] table with any of {LIDAR}."),
     ("[lidar]\nrays = 0", "lidar.rays is 0; write a whole number from 1 to 10000."),
-    ("[lidar]\nrange_min = 4", "lidar.range_min is 4.0; write a number below range_max, 3.5 (metres)."),
+    ("[lidar]\nrange_min = 4", "lidar.range_min is 4.0; write a number below range_max, 3.5 (meters)."),
     ("[robot]\nmax_force = 1",
      "robot.max_force is 1.0; write more than 2.5 N, which the robot's ramps and curves need."),
     ("[robot]\nradus = 1", "robot.radus is not a known key; did you mean radius?"),
     ("[[movable]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1",
-     "movable[0].height is missing; write a number from 0.0001 to 1000 (metres)."),
+     "movable[0].height is missing; write a number from 0.0001 to 1000 (meters)."),
     ("[robots]\nname = 'leader'",
      "robots is {'name': 'leader'}; write a [[robots]] table for each, "
      "with name, start, route, speed and charger."),
     ("[[robots]]\nname = 'leader'",
-     "robots[0].start is missing; write [x, y, yaw] (metres and radians)."),
+     "robots[0].start is missing; write [x, y, yaw] (meters and radians)."),
     ("[joint]\n[arm]", "joint and arm are both here; keep one of them."),
     ("[joint]\n[imu]\nrate = 50",
      "imu is ImuModel(rate=50.0, gyro_noise=0.005, gyro_bias=0.02, accel_noise=0.05, accel...; "
@@ -302,7 +302,7 @@ def test_every_world_comes_back_from_plain_data(name):
     [
         (
             {"start": [9, 0, 0]},
-            "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+            "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (meters and radians) inside the bounds.",
         ),
         ({"lidar": {"rays": 1e9}}, "lidar.rays is 1000000000.0; write a whole number from 1 to 10000."),
         (
@@ -335,7 +335,7 @@ def test_a_number_too_big_for_a_float_is_not_finite(tmp_path):
     huge = "9" * 400
     text = GOOD.replace("[card]", f"[[circles]]\nx = {huge}\ny = 1\nradius = 1\n[card]")
     assert words(tmp_path, text) == (
-        f"mine.toml: circles[0].x is {huge[:77]}...; write a number from -1000 to 1000 (metres)."
+        f"mine.toml: circles[0].x is {huge[:77]}...; write a number from -1000 to 1000 (meters)."
     )
 
 

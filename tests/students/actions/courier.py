@@ -12,7 +12,7 @@ from rclpy.task import Future
 
 
 class Courier(Node):
-    action, metres, speed, patience = "/drive_on_heading", 2.0, 0.4, 8.0
+    action, meters, speed, patience = "/drive_on_heading", 2.0, 0.4, 8.0
 
     def __init__(self):
         super().__init__("courier")
@@ -26,7 +26,7 @@ class Courier(Node):
 
     def send(self):
         goal = DriveOnHeading.Goal(speed=self.speed)
-        goal.target.x = self.metres
+        goal.target.x = self.meters
         self.client.send_goal_async(goal).add_done_callback(self.hear_response)
 
     def hear_response(self, future):
@@ -224,11 +224,11 @@ class LogsItsWayQuietly(Courier):
 
     def send(self):
         goal = DriveOnHeading.Goal(speed=self.speed)
-        goal.target.x = self.metres
+        goal.target.x = self.meters
         sent = self.client.send_goal_async(goal, feedback_callback=self.hear_feedback)
         sent.add_done_callback(self.hear_response)
 
     def hear_feedback(self, msg):
-        metres = msg.feedback.distance_traveled
-        self.get_logger().debug(f"{metres:.3f} m")
-        self.get_logger().info(f"{metres:.1f} m", throttle_duration_sec=1.0)
+        meters = msg.feedback.distance_traveled
+        self.get_logger().debug(f"{meters:.3f} m")
+        self.get_logger().info(f"{meters:.1f} m", throttle_duration_sec=1.0)

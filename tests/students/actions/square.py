@@ -12,9 +12,9 @@ from rclpy.node import Node
 PARTS = ("BlockingClient", "ahead", "left")
 
 
-def ahead(metres=1.0, speed=0.4):
+def ahead(meters=1.0, speed=0.4):
     goal = DriveOnHeading.Goal(speed=speed)
-    goal.target.x = metres
+    goal.target.x = meters
     return goal
 
 
@@ -23,7 +23,7 @@ def left(angle=math.pi / 2):
 
 
 class SquareClient(Node):
-    sides, metres, angle = 4, 1.0, math.pi / 2
+    sides, meters, angle = 4, 1.0, math.pi / 2
 
     def __init__(self):
         super().__init__("square_client")
@@ -38,7 +38,7 @@ class SquareClient(Node):
     async def go(self):
         self.timer.cancel()
         for _ in range(self.sides):
-            await self.finish(self.drive, ahead(self.metres))
+            await self.finish(self.drive, ahead(self.meters))
             await self.finish(self.spin, left(self.angle))
 
     async def finish(self, client, goal):
@@ -112,7 +112,7 @@ class FiveSides(SquareClient):
 
 
 class HalfSides(SquareClient):
-    metres = 0.5
+    meters = 0.5
 
 
 class NeverTurns(SquareClient):

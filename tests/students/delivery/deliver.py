@@ -42,7 +42,7 @@ def first_of(*branches):
 
 
 class Tree(Decision):
-    """Rules as a behaviour tree: each leaf is a question or a place."""
+    """Rules as a behavior tree: each leaf is a question or a place."""
 
     def __init__(self):
         super().__init__()
@@ -67,7 +67,7 @@ class Tree(Decision):
         return self.tree(self)
 
 
-BehaviourTree = Team(Perception, Tree, Control)  # a design of its own
+BehaviorTree = Team(Perception, Tree, Control)  # a design of its own
 
 
 class Charger(Node):

@@ -103,7 +103,7 @@ class Client(Node):
     def cancel(self):
         self.timer.cancel()
         self.goal.cancel_goal_async().add_done_callback(
-            lambda future: self.say(f"cancelling {len(future.result().goals_canceling)}")
+            lambda future: self.say(f"canceling {len(future.result().goals_canceling)}")
         )
 
     def ended(self, future):

@@ -67,7 +67,7 @@ class JudgesWithTrue(Server):
 
 class JudgeRaises(Server):
     def judge(self, goal):
-        raise ValueError("no judgement")
+        raise ValueError("no judgment")
 
 
 class Later(Server):

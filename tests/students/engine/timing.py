@@ -39,7 +39,7 @@ class Timers(Node):
 
 
 class ResetCancelChange(Node):
-    """A timer that is cancelled at 1.25 s, started again at 2 s, and made faster at 3.25 s."""
+    """A timer that is canceled at 1.25 s, started again at 2 s, and made faster at 3.25 s."""
 
     def __init__(self):
         super().__init__("timer")

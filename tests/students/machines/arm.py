@@ -157,5 +157,5 @@ class ChangesItsMind(Follower):
     def change(self):
         self.send(STEADY)
         self.first.cancel_goal_async().add_done_callback(
-            lambda future: self.say(f"cancelling {len(future.result().goals_canceling)}")
+            lambda future: self.say(f"canceling {len(future.result().goals_canceling)}")
         )

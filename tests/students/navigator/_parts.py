@@ -61,7 +61,7 @@ def inflate(cells, reach):
     return inflated
 
 
-def neighbours(cells, cell, steps=STEPS):
+def neighbors(cells, cell, steps=STEPS):
     for right, up in steps:
         x, y = cell[0] + right, cell[1] + up
         if 0 <= x < len(cells[0]) and 0 <= y < len(cells) and 0 <= cells[y][x] < 100:
@@ -78,7 +78,7 @@ def find_path(cells, start, goal, weight=1.0, steps=STEPS):
             while came_from[way[-1]] is not None:
                 way.append(came_from[way[-1]])
             return way[::-1]
-        for there, step in neighbours(cells, here, steps):
+        for there, step in neighbors(cells, here, steps):
             if cost[here] + step < cost.get(there, math.inf):
                 cost[there], came_from[there] = cost[here] + step, here
                 heapq.heappush(queue, (cost[there] + weight * math.dist(there, goal), there))

@@ -21,7 +21,7 @@ class Costmap(Node):
         super().__init__("costmap")
         self.info = None
         self.costmap_publisher = self.create_publisher(OccupancyGrid, "/global_costmap/costmap", LATCHED)
-        self.point_publisher = self.create_publisher(PointStamped, "/cell_centre", 10)
+        self.point_publisher = self.create_publisher(PointStamped, "/cell_center", 10)
         self.create_subscription(OccupancyGrid, "/map", self.on_map, self.profile)
         self.create_subscription(PointStamped, "/clicked_point", self.on_click, 10)
 
@@ -97,7 +97,7 @@ def costmap_main():
         depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
     )
     publisher = node.create_publisher(OccupancyGrid, "global_costmap/costmap", profile)
-    centres = node.create_publisher(PointStamped, "cell_centre", 5)
+    centers = node.create_publisher(PointStamped, "cell_center", 5)
     info = []
 
     def on_map(msg):
@@ -120,7 +120,7 @@ def costmap_main():
         corner, size = info[0].origin.position, info[0].resolution
         msg.point.x -= (msg.point.x - corner.x) % size - size / 2
         msg.point.y -= (msg.point.y - corner.y) % size - size / 2
-        centres.publish(msg)
+        centers.publish(msg)
 
     node.create_subscription(OccupancyGrid, "map", on_map, profile)
     node.create_subscription(PointStamped, "clicked_point", on_click, 5)
@@ -201,7 +201,7 @@ class IntoTheOldMap(Costmap):
         return cells
 
 
-class ReachInMetres(Costmap):
+class ReachInMeters(Costmap):
     def inflate(self, cells, reach):
         return super().inflate(cells, 0.2)
 

@@ -18,7 +18,7 @@ from tests.students.navigator._parts import (
     Localized,
     cells_of,
     find_path,
-    neighbours,
+    neighbors,
     path_message,
     to_cell,
     to_point,
@@ -69,7 +69,7 @@ class ClosedSet(Planner):
             if way[-1] in done:
                 continue
             done.add(way[-1])
-            for there, step in neighbours(cells, way[-1]):
+            for there, step in neighbors(cells, way[-1]):
                 if there not in done:
                     rank = cost + step + math.dist(there, goal)
                     heapq.heappush(queue, (rank, next(count), cost + step, [*way, there]))
@@ -137,7 +137,7 @@ class PlansAgainAndAgain(Planner):
             super().on_goal(self.goal)
 
 
-class FourNeighbours(Planner):
+class FourNeighbors(Planner):
     """No diagonal steps: the ways are longer."""
 
     steps = STEPS[:4]
@@ -150,7 +150,7 @@ class FewestSteps(Planner):
         queue, came_from = deque([start]), {start: None}
         while queue and goal not in came_from:
             here = queue.popleft()
-            for there, _ in neighbours(cells, here, STEPS[4:] + STEPS[:4]):
+            for there, _ in neighbors(cells, here, STEPS[4:] + STEPS[:4]):
                 if there not in came_from:
                     came_from[there] = here
                     queue.append(there)
@@ -167,7 +167,7 @@ class FirstWayWins(Planner):
         stack, came_from = [start], {start: None}
         while stack and goal not in came_from:
             here = stack.pop()
-            for there, _ in neighbours(cells, here):
+            for there, _ in neighbors(cells, here):
                 if there not in came_from:
                     came_from[there] = here
                     stack.append(there)

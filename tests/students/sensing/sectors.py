@@ -53,9 +53,9 @@ class LookoutByIndex(Lookout):
 
     def nearest(self, msg, middle):
         count = len(msg.ranges)
-        centre = (math.radians(middle) - msg.angle_min) / msg.angle_increment
+        center = (math.radians(middle) - msg.angle_min) / msg.angle_increment
         half = math.radians(30) / msg.angle_increment
-        rays = [msg.ranges[i % count] for i in range(math.ceil(centre - half), math.floor(centre + half) + 1)]
+        rays = [msg.ranges[i % count] for i in range(math.ceil(center - half), math.floor(center + half) + 1)]
         return max(0.0, min((r for r in rays if r == r), default=math.inf))
 
 
@@ -117,8 +117,8 @@ class FirstRayLooksBack(Lookout):
 
     def nearest(self, msg, middle):
         count = len(msg.ranges)
-        centre = count // 2 + round(middle * count / 360)
-        rays = [msg.ranges[i % count] for i in range(centre - count // 12, centre + count // 12 + 1)]
+        center = count // 2 + round(middle * count / 360)
+        rays = [msg.ranges[i % count] for i in range(center - count // 12, center + count // 12 + 1)]
         return max(0.0, min((r for r in rays if not math.isnan(r)), default=math.inf))
 
 

@@ -112,7 +112,7 @@ class StopsEarly(Stopper):
     limit = 1.5
 
 
-class Centimetres(Stopper):
+class Centimeters(Stopper):
     limit = 100.0
 
 
@@ -181,7 +181,7 @@ class WholeNumber(Stopper):
 
 
 class CreepsOn(Stopper):
-    """Brakes over the last metre, and never stops."""
+    """Brakes over the last meter, and never stops."""
 
     def choose(self, nearest):
         return 0.3 if nearest > 1.0 else 0.02 * math.copysign(1.0, nearest)

@@ -12,7 +12,7 @@ from grader.marking.extras.league.contest import Contest, Game
 from grader.marking.result import Result
 
 REFERENCE = ".reference"  # the course's own entry: no student's name begins with a dot
-COLOURS = "amber azure coral copper crimson gold green indigo ivory lilac olive pearl ruby silver teal violet"
+COLORS = "amber azure coral copper crimson gold green indigo ivory lilac olive pearl ruby silver teal violet"
 BIRDS = "crane crow dove eagle falcon finch gull heron ibis kite lark owl plover raven swan wren"
 
 
@@ -98,7 +98,7 @@ def _note(games: Sequence[Game], contest: Contest) -> str:
 def anonymous_names(students: Iterable[str], key: str) -> dict[str, str]:
     """A different name for each student, such as `teal heron`, that reveals nothing without the key."""
     found: dict[str, str] = {}
-    colours, birds = COLOURS.split(), BIRDS.split()
+    colors, birds = COLORS.split(), BIRDS.split()
     for student in sorted(students):
         if student == REFERENCE:
             found[student] = "the reference"
@@ -106,8 +106,8 @@ def anonymous_names(students: Iterable[str], key: str) -> dict[str, str]:
         for attempt in count():
             word = f"{attempt} {student}".encode(errors="surrogateescape")
             drawn = hmac.new(key.encode(), word, hashlib.sha256).digest()
-            name = f"{colours[drawn[0] % len(colours)]} {birds[drawn[1] % len(birds)]}"
-            name += f" {drawn[2]}" if attempt >= len(colours) else ""  # a large class
+            name = f"{colors[drawn[0] % len(colors)]} {birds[drawn[1] % len(birds)]}"
+            name += f" {drawn[2]}" if attempt >= len(colors) else ""  # a large class
             if name not in found.values():
                 break
         found[student] = name

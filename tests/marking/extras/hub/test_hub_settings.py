@@ -25,7 +25,7 @@ WRONG = {
     "[courses.ros2]\nteachers = ['Ines']": f"the name 'Ines' can't be used; {NAMES}",
     "[courses.'../x']\nteachers = []": f"the name '../x' can't be used; {NAMES}",
     COURSE + "[course.b]": "course is not a known key; the keys are server, limits, courses.",
-    COURSE + "colour = 1": "courses.ros2.colour is not a known key; the keys are teachers, students.",
+    COURSE + "color = 1": "courses.ros2.color is not a known key; the keys are teachers, students.",
     COURSE + "[server]\nport = 70000": "server.port is 70000; write a whole number from 1 to 65535.",
     COURSE + "[server]\nfolder = 'hub'": "server.folder is 'hub'; write an absolute path.",
     COURSE + "[server]\nkey = '/k'": "server.certificate and server.key belong together: write both or none.",

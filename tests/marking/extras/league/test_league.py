@@ -90,7 +90,7 @@ def test_a_class_has_a_table_and_a_page_for_each_warehouse(played):
     assert list(found) == [INDEX, "warehouse_01.html", "warehouse_02.html"]
     assert found["warehouse_01.html"].count('<div class="ros2-replay"') == 4
     assert found["warehouse_02.html"].count('<div class="ros2-replay"') == 3
-    assert "The grey shadow is <bdi>the reference</bdi>" in found["warehouse_01.html"]
+    assert "The gray shadow is <bdi>the reference</bdi>" in found["warehouse_01.html"]
     assert "The warehouses were drawn from <code>words</code>, which was unknown before." in found[INDEX]
 
 
@@ -208,7 +208,7 @@ def test_students_compare_versions_of_their_own_in_public_warehouses(league, pla
     assert "&lt;b&gt;no map&lt;/b&gt;" in table
     assert not re.search("<i>|<b>no", "".join(pages(course / "work" / "league").values()))
     assert "These are the public warehouses 0 to 1." in table
-    assert "The grey shadow is <bdi>new</bdi>" in pages(course / "work" / "league")["warehouse_01.html"]
+    assert "The gray shadow is <bdi>new</bdi>" in pages(course / "work" / "league")["warehouse_01.html"]
     assert kept(course / "work")["new"] != kept(played / "class")["anna"]
 
 

@@ -122,7 +122,7 @@ def test_a_file_that_is_no_receipt_is_refused(elsewhere, confirm, text, sentence
 
 
 @pytest.mark.parametrize(
-    ("old", "new"), [("15 of 15", "16 of 16"), ("Anna Meier</bdi>", "Eve</bdi>"), ("</main>", "<p>With honours</p></main>")]
+    ("old", "new"), [("15 of 15", "16 of 16"), ("Anna Meier</bdi>", "Eve</bdi>"), ("</main>", "<p>With honors</p></main>")]
 )
 def test_a_page_that_shows_more_than_its_receipts_is_refused(elsewhere, confirm, old, new):
     page = elsewhere / "anna.html"

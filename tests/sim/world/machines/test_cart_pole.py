@@ -218,9 +218,9 @@ def test_bodies_are_cart_and_pole_where_they_are():
     [
         ({"cart_mass": 0}, "cart_mass is 0; write a number from 0.01 to 1000 (kg)."),
         ({"pole_friction": -1}, "pole_friction is -1; write a number from 0 to 1000000 (N m per rad/s)."),
-        ({"pole_length": math.inf}, "pole_length is inf; write a number from 0.0001 to 1000 (metres)."),
+        ({"pole_length": math.inf}, "pole_length is inf; write a number from 0.0001 to 1000 (meters)."),
         ({"max_force": "5"}, "max_force is '5'; write a number from 0.0001 to 1000 (N)."),
-        ({"pole_length": 0.01}, "pole_length is 0.01; write at least 0.029 (metres) for these masses."),
+        ({"pole_length": 0.01}, "pole_length is 0.01; write at least 0.029 (meters) for these masses."),
         ({"pushes": [1.0]}, "pushes is [1.0]; write a list of Push."),
         ({"cart_friction": 60}, "cart_friction is 60.0; write 50 (N per m/s) or less for this mass."),
         (

@@ -119,7 +119,7 @@ def test_how_often_it_is_looked_at_changes_nothing():
             {"max_acceleration": math.nan},
             "max_acceleration is nan; write a number from 0.0001 to 10000 (rad/s^2).",
         ),
-        ({"length": -1.0}, "length is -1.0; write a number from 0.0001 to 1000 (metres)."),
+        ({"length": -1.0}, "length is -1.0; write a number from 0.0001 to 1000 (meters)."),
     ],
 )
 def test_invalid_parameters(values, sentence):

@@ -48,19 +48,19 @@ def test_a_line_is_as_wide_as_its_pen_and_covers_what_was_there():
     canvas.line(1.0, 5.0, 9.0, 5.0, RED, 3)
     canvas.line(5.0, 1.0, 5.0, 9.0, GREEN, 1)
     pixel = 1 / 45
-    at = [canvas.colour(3.0, 5.0 + row * pixel, BLUE) for row in (-2, -1, 0, 1, 2)]
+    at = [canvas.color(3.0, 5.0 + row * pixel, BLUE) for row in (-2, -1, 0, 1, 2)]
     assert at == [BLUE, RED, RED, RED, BLUE]
-    assert canvas.colour(5.0, 5.0, BLUE) == GREEN
+    assert canvas.color(5.0, 5.0, BLUE) == GREEN
     canvas.erase()
-    assert canvas.colour(5.0, 5.0, BLUE) == BLUE
+    assert canvas.color(5.0, 5.0, BLUE) == BLUE
 
 
 def test_the_corners_of_the_canvas_are_those_of_the_pond():
     canvas = PondImage()
     for x, y in ((0, 0), (SIDE, 0), (0, SIDE), (SIDE, SIDE)):
         canvas.line(x, y, x, y, RED, 255)
-        assert canvas.colour(x, y, BLUE) == RED
-    assert canvas.colour(SIDE / 2, SIDE / 2, BLUE) == BLUE
+        assert canvas.color(x, y, BLUE) == RED
+    assert canvas.color(SIDE / 2, SIDE / 2, BLUE) == BLUE
     assert PIXELS == 500
 
 
@@ -117,7 +117,7 @@ def test_many_short_lines_are_forgotten_the_oldest_first(pond):
     assert pond.drawing.strokes[0].points[0][0] == 6_000
 
 
-def test_the_ground_had_its_colours_one_after_the_other(pond):
+def test_the_ground_had_its_colors_one_after_the_other(pond):
     pond.advance(1.0)
     pond.set_background(RED)
     pond.advance(2.0)

@@ -53,7 +53,7 @@ def test_a_world_without_a_machine_has_a_mobile_robot():
         ("[arm]\nwrist = 3", "arm.wrist is not a known key; the keys are shoulder, elbow, elbow_first."),
         (
             "[cart_pole]\npole_length = 0",
-            "cart_pole.pole_length is 0; write a number from 0.0001 to 1000 (metres).",
+            "cart_pole.pole_length is 0; write a number from 0.0001 to 1000 (meters).",
         ),
         ("[joint]\n[arm]", "joint and arm are both here; keep one of them."),
     ],

@@ -1,4 +1,4 @@
-"""The catalogue of all exercises in grader.exercises, by name."""
+"""The catalog of all exercises in grader.exercises, by name."""
 
 from __future__ import annotations
 

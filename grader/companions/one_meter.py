@@ -5,15 +5,15 @@ from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
 
-class OneMetre(Node):
-    """Drives one metre straight on: Twist on `velocity` until Odometry on `pose` says that it's there.
+class OneMeter(Node):
+    """Drives one meter straight on: Twist on `velocity` until Odometry on `pose` says that it's there.
 
     It was written for another robot, where the topics have these names.
     """
 
     def __init__(self) -> None:
-        super().__init__("one_metre")
-        self.x = 0.0  # metres, frame odom
+        super().__init__("one_meter")
+        self.x = 0.0  # meters, frame odom
         self.publisher = self.create_publisher(Twist, "velocity", 10)
         self.create_subscription(Odometry, "pose", self.on_pose, 10)
         self.create_timer(0.1, self.drive)
@@ -23,7 +23,7 @@ class OneMetre(Node):
         self.x = msg.pose.pose.position.x
 
     def drive(self) -> None:
-        """Forward, until the metre is done."""
+        """Forward, until the meter is done."""
         msg = Twist()
         msg.linear.x = 0.3 if self.x < 0.97 else 0.0
         self.publisher.publish(msg)
