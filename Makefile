@@ -64,8 +64,12 @@ tidy: tools  ## normalize the notebooks, sort imports
 	$(BIN)/python -m grader.notebook_format
 	$(BIN)/ruff check --fix
 
+# One spelling, the American one of ROS's names; pyproject.toml has the rest of its settings.
+SPELLING = git ls-files -z | xargs -0 $(BIN)/codespell --dictionary - --dictionary .ci/words.txt
+
 lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
+	@$(SPELLING)
 	$(BIN)/python -m grader.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
 	@sh .ci/javascript
