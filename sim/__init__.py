@@ -14,6 +14,7 @@ if Path(sys.argv[0]).name == "ros2":
 else:
     from sim.public_names import (
         Network,
+        Pointer,
         Process,
         Recording,
         Teleop,
@@ -28,6 +29,7 @@ else:
 
 __all__ = [
     "Network",
+    "Pointer",
     "Process",
     "Recording",
     "Teleop",

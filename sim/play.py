@@ -10,6 +10,8 @@ from sim.network import Network
 from sim.notebook import in_notebook, raise_if_outdated, report_failure
 from sim.ros.play.pacing import Pace
 from sim.ros.play.player import Player
+from sim.ros.play.pointer import Pointer
+from sim.ros.play.teleop import Teleop
 from sim.ros.session import Session
 from sim.world import World
 
@@ -44,13 +46,21 @@ def play(
             LiveView,  # imported here because it is slow, and scripts don't need Jupyter
         )
 
-        view = LiveView(player.recording.world, reports=not expect_error)
+        view = LiveView(player.recording.world, reports=not expect_error, inputs=_inputs(nodes))
         view.show()
         player.show(view)
     player.begin()
     if player.over and not expect_error:  # it was played without an event loop
         report_failure(player.recording)
     return player
+
+
+def _inputs(nodes: Sequence[Any]) -> list[str]:
+    """What nodes read from the live picture: "keys" if there is a Teleop, "points" if there is a Pointer."""
+    targets = [getattr(node, "target", node) for node in nodes]
+    classes = [target for target in targets if isinstance(target, type)]
+    kinds = {"keys": Teleop, "points": Pointer}
+    return [name for name, kind in kinds.items() if any(issubclass(one, kind) for one in classes)]
 
 
 def replay(

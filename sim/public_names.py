@@ -8,6 +8,7 @@ from sim.ros.engine.program import Process
 from sim.ros.exploring import explore
 from sim.ros.hooks.install import install
 from sim.ros.packages import executable
+from sim.ros.play.pointer import Pointer
 from sim.ros.play.teleop import Teleop
 from sim.ros.run import run
 from sim.ros.sourcing import source
@@ -21,6 +22,7 @@ register_magic()
 
 __all__ = [
     "Network",
+    "Pointer",
     "Process",
     "Recording",
     "Teleop",

@@ -26,6 +26,7 @@ Command = dict[str, Any]
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PANEL = "application/vnd.ros2-course.robot+json"  # handled by jupyter/labextensions
 MAX_TOPIC_LENGTH = 300  # characters
+MOST_METRES = 1000.0  # of a point in the picture
 SPEEDS = (0.01, 1000.0)  # range of simulated seconds per second that a page may request
 
 
@@ -36,17 +37,18 @@ class LiveView(anywidget.AnyWidget):
 
     Attributes:
         on_command: called with each valid command of the page: {"speed": 2.0}, {"pause": True},
-            {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} or {"drive": [forward, left]},
-            both in [-1, 1].
+            {"step": True}, {"stop": True}, {"topic": name}, {"graph": True}, {"drive": [forward, left]},
+            both in [-1, 1], or {"point": [x, y]}, in m.
     """
 
     _esm = script("live.js")
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
+    inputs = traitlets.List(traitlets.Unicode()).tag(sync=True)  # what nodes read besides: "keys", "points"
 
-    def __init__(self, world: World | None, *, reports: bool = True) -> None:
-        super().__init__(world=world and world_data(world))
+    def __init__(self, world: World | None, *, reports: bool = True, inputs: Sequence[str] = ()) -> None:
+        super().__init__(world=world and world_data(world), inputs=list(inputs))
         self.on_command: Callable[[Command], None] | None = None
         self._reports = reports  # whether the end shows the failure of the run
         self._display: DisplayHandle | None = None
@@ -135,6 +137,10 @@ def parse_command(content: Any) -> Command | None:
         forward, left = value
         if _between(forward, -1, 1) and _between(left, -1, 1):
             return {name: [float(forward), float(left)]}
+        return None
+    is_pair = isinstance(value, list) and len(value) == 2
+    if name == "point" and is_pair and all(_between(part, -MOST_METRES, MOST_METRES) for part in value):
+        return {name: [float(part) for part in value]}
     return None
 
 

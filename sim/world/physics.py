@@ -42,6 +42,18 @@ class PushedBox:
         x, y = self.body.position
         return x, y, wrap(self.body.angle)
 
+    def place(self, x: float, y: float) -> bool:
+        """Put it at (x, y), at rest; where something else is, leave it and return False."""
+        body, before = self.body, self.body.position
+        body.position = x, y
+        body.space.reindex_shapes_for_body(body)
+        if body.space.shape_query(self.shape):
+            body.position = before
+            body.space.reindex_shapes_for_body(body)
+            return False
+        body.velocity, body.angular_velocity = (0.0, 0.0), 0.0
+        return True
+
     def sides(self) -> list[tuple[float, float, float, float]]:
         """Its four sides in the map frame, each (x0, y0, x1, y1)."""
         corners = placed(self._outline, *self.body.position, self.body.angle)

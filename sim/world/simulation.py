@@ -88,6 +88,11 @@ class Simulation:
         people = ((*person.pose[:2], person.shape.radius) for person in self._people)
         return sides, [*((*other.pose[:2], radius) for other in others), *people]
 
+    def place_box(self, name: str, x: float, y: float) -> bool:
+        """Put a movable box at (x, y) (m); where something else is, leave it and return False."""
+        movable = {f"box_{number}": box for number, box in enumerate(self._boxes, start=1)}
+        return name in movable and movable[name].place(x, y)
+
     @property
     def contacts(self) -> list[Contact]:
         """All contacts of the first robot so far, oldest first."""

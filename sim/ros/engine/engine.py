@@ -64,6 +64,7 @@ class Engine(Scheduler):
         self.rclpy = RclpyState()
         self.programs: list[RunningProgram] = []
         self.held = (0.0, 0.0)  # the user's keys: forward and left, each in [-1, 1]; a Teleop node reads them
+        self.pointed: tuple[float, float] | None = None  # (m) the last click, for a Pointer node
         self._fault: Ended | None = None
 
     # -- the main loop -----------------------------------------------------------------------------

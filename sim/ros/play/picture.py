@@ -20,8 +20,8 @@ class Picture(Protocol):
     """Shows a running simulation. The player calls all methods in the kernel's main thread."""
 
     # Set by the player. May be called in any thread, with one of {"speed": 2.0}, {"pause": True or False},
-    # {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} and {"drive": [forward, left]}, each in
-    # [-1, 1].
+    # {"step": True}, {"stop": True}, {"topic": name}, {"graph": True}, {"drive": [forward, left]}, each in
+    # [-1, 1], and {"point": [x, y]}, in m.
     on_command: Callable[[dict], None] | None
 
     def frame(self, stamp: float, poses: list[tuple[float, float, float]], scan: Scan | None) -> None:

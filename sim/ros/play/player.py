@@ -246,5 +246,5 @@ class Player:
                 self._updater.telemetry.select(name)
             case {"graph": True}:
                 self._updater.connections(self.recording)
-            case {"drive": [forward, left]}:
-                self._context.run(self._keyboard_driver.drive, forward, left)
+            case _:
+                self._context.run(self._keyboard_driver.execute, command)

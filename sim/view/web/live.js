@@ -6,6 +6,9 @@ const TIMEOUT = 1500; // ms without messages after which the view shows a notice
 const FOLDED = ["/tf", "/tf_static", "/clock", "/joint_states", "/robot_description", "/parameter_events", "/rosout"];
 const RARE = 0.5; // Hz; of rarer messages the number is shown
 const MAX_TRAIL = 4000; // points
+const MOVE_HOW = "Click the picture, then use the arrow keys or W A S D.";
+const POINT_HOW = "Click into the picture, or drag.";
+const POINT_GAP = 40; // ms, at least, between points of a drag
 const HOW = "Click the picture, then drive with the arrow keys or W A S D. Space stops the robot.";
 const DIRECTIONS = { up: [1, 0], down: [-1, 0], left: [0, 1], right: [0, -1] };
 const SIGHT = 100; // px, the least side of a picture to drive by
@@ -112,12 +115,14 @@ class View {
     this.root.dataset.lmSuppressShortcuts = "true"; // keys drive the robot instead of the notebook
     this.turtles = this.world?.bodies[0].kind === "turtle"; // their number changes: a frame's length follows from it
     this.drives = this.turtles || this.world?.bodies.some((body) => body.kind === "robot"); // otherwise it is a machine
-    if (this.drives) {
+    const inputs = model.get("inputs") ?? []; // what nodes read: "keys", "points"
+    this.points = inputs.includes("points");
+    if (this.drives || inputs.includes("keys")) {
       this.pad = new Pad(this.root, (command) => this.send(command));
       this.stage.append(this.pad.root); // in the picture: nobody drives a robot that is out of sight
     }
-    const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
-    this.how = make("div", { className: "how" }, how);
+    this.howTo = this.points ? POINT_HOW : this.drives ? HOW : this.pad ? MOVE_HOW : "";
+    this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, go on step by step, and end it.");
     this.statusLine = make("div", { className: "say", role: "status" });
     this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
     this.legend = make("div", { className: "legend" });
@@ -139,14 +144,30 @@ class View {
       this.showLegend();
       onTheme(this.root, () => this.showLegend());
       this.picture.canvas.addEventListener("pointerdown", () => this.picture.canvas.focus());
-      if (this.drives) {
+      if (this.points) this.watchPointer();
+      if (this.pad || this.points) {
         // Screen readers must pass keys on to it.
         this.picture.canvas.setAttribute("role", "application");
-        this.picture.canvas.setAttribute("aria-label", `The robot in the world ${this.world.name}. ${HOW}`);
+        this.picture.canvas.setAttribute("aria-label", `The robot in the world ${this.world.name}. ${this.howTo}`);
       }
     }
     this.showGraph();
     this.showStatus();
+  }
+
+  /** Send where the picture is clicked or dragged; while it is zoomed in, a drag moves the view instead. */
+  watchPointer() {
+    const { canvas, camera } = this.picture;
+    canvas.style.touchAction = "none";
+    let last = 0;
+    const point = (event) => {
+      if (event.buttons !== 1 || camera.zoom > 1 || event.timeStamp - last < POINT_GAP) return;
+      last = event.timeStamp;
+      const { scale, x, y } = camera.view();
+      this.send({ point: [x + (event.offsetX - this.picture.width / 2) / scale, y + (this.picture.height / 2 - event.offsetY) / scale] });
+    };
+    canvas.addEventListener("pointerdown", (event) => { last = 0; point(event); });
+    canvas.addEventListener("pointermove", point);
   }
 
   showLegend() {

@@ -110,6 +110,7 @@ def test_a_graph_is_stored_for_later_pages(view):
         {"stop": True},
         {"graph": True},
         {"drive": [1.0, -0.5]},
+        {"point": [12.5, -0.5]},
     ],
 )
 def test_a_command_of_the_page_is_passed_on(view, command):
@@ -151,6 +152,11 @@ def test_a_command_of_the_page_is_passed_on(view, command):
         {"drive": ["1", "0"]},
         {"drive": "10"},
         {"drive": {"0": 1, "1": 1}},
+        {"point": [1.0]},
+        {"point": [1001.0, 0.0]},
+        {"point": [math.nan, 0.0]},
+        {"point": ["1", "0"]},
+        {"point": 3},
         {"__class__": 1},
         {1: 2},
     ],
