@@ -1,5 +1,6 @@
 """A figure that an arm has to draw."""
 
+import cmath
 import functools
 import math
 import random
@@ -21,15 +22,25 @@ SHAPES = {
 
 
 def figure(seed: int) -> list[Point]:
-    """Return a closed figure in front of the arm of `desk_of(seed)`, as points (m) in its base_link."""
+    """Return a closed figure beside the arm of `desk_of(seed)`, as points (m) in its base_link.
+
+    That of seed 1 is in front of the arm; the others are long, and end behind the shoulder, where x < 0.
+    """
     draw, arm = random.Random(f"figure {seed}"), desk_of(seed).machine
     shape = SHAPES[draw.choice(sorted(SHAPES)) if seed > 2 else "circle"]
-    far = (arm.shoulder.length + arm.elbow.length) * draw.uniform(0.58, 0.64)
-    where, size = draw.uniform(0.5, 0.64), draw.uniform(0.08, 0.11)
-    x, y = far * math.cos(where), far * math.sin(where)
+    reach = arm.shoulder.length + arm.elbow.length
+    near, where = reach * draw.uniform(0.58, 0.64), draw.uniform(0.5, 0.64)
+    width = draw.uniform(0.08, 0.11)
+    if seed == 1:
+        middle, half = cmath.rect(near, where), complex(width)
+    else:
+        begin = cmath.rect(near, where - 0.1)
+        end = cmath.rect(reach * draw.uniform(0.82, 0.86), draw.uniform(1.7, 1.8))
+        middle, half = (begin + end) / 2, (begin - end) / 2
+    across = 1j * half / abs(half) * width
     angles = [math.tau * index / POINTS for index in range(POINTS + 1)]
-    rows = [(size * shape(a) * math.cos(a), size * shape(a) * math.sin(a)) for a in angles]
-    return [(round(x + dx, 4), round(side_of(seed) * (y + dy), 4)) for dx, dy in rows]
+    points = [middle + half * math.cos(a) + across * shape(a) * math.sin(a) for a in angles]
+    return [(round(point.real, 4), round(side_of(seed) * point.imag, 4)) for point in points]
 
 
 class Designer(Node):

@@ -92,7 +92,10 @@ def paths(seed: int) -> list[Path]:
     """Return one path of each kind for the arm of a seed."""
     draw, joints = random.Random(f"paths {seed}"), arm_of(seed).machine.joints
     found, now = [], [0.0, 0.0]
-    for kind in draw.sample(KINDS, 3):
+    kinds = draw.sample(KINDS, 3)
+    if kinds[-1] == "good":  # after it the arm isn't at 0, 0, which the next path shows
+        kinds[1:] = kinds[:0:-1]
+    for kind in kinds:
         points = []
         while len(points) < 2:
             point = [round(draw.uniform(joint.lower + 0.1, joint.upper - 0.1), 2) for joint in joints]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from sim.world import World
 from sim.world.machines import ArmModel, JointModel
 
+NOISE = 0.001  # rad, rad/s; of the joint's encoder
 EDGE = 0.06
 """How far (m) the table's edge is from the arm's shoulder, on the side where the figure isn't."""
 
@@ -17,11 +18,12 @@ def _between(draw: random.Random, low: float, high: float) -> float:
 
 @functools.lru_cache(maxsize=64)
 def joint_of(seed: int) -> World:
-    """Return the world joint with a motor that may be slow or quick, and limits of its own."""
+    """Return the world joint with a motor that may be slow or quick, limits of its own, a noisy encoder."""
     draw = random.Random(f"joint {seed}")
     model = JointModel(
         lower=-_between(draw, 1.2, 2.0), upper=_between(draw, 1.2, 2.0),
         max_velocity=draw.choice((0.4, 0.5, 0.6, 0.7)), max_acceleration=3.0,
+        position_noise=NOISE, velocity_noise=NOISE,
     )
     return replace(World.load("joint"), machine=model, name=f"joint_{seed}")
 

@@ -42,7 +42,7 @@ RIGHT_ANYWAY = {
     ("calibrate", LISTENS_ONCE): 7,  # with too few readings a refusal is right
     ("modes", LISTENS_ONCE): 7.5,  # modes and arming are services
     ("ticks", LISTENS_ONCE): 8,  # a timer asks, and answers go on
-    ("trajectory", LISTENS_ONCE): 20,  # the place of the arm at the beginning is enough
+    ("trajectory", LISTENS_ONCE): 16,  # paths come seldom; where the arm is counts for one check
     ("customer", "asks everything"): 12,  # the goal is in the task's text, and with it its result
     ("courier", "asks everything"): 6,  # the same
     ("careful", "asks everything"): 6,  # what is wanted is passed on, and more

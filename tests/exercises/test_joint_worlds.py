@@ -29,6 +29,12 @@ def test_a_figure_can_be_drawn_with_one_elbow_and_with_the_other_the_arm_hits_th
     assert max(map(abs, angles)) < 2.6
 
 
+def test_all_figures_but_the_first_are_in_front_of_the_shoulder_and_behind_it():
+    assert all(x > 0 for x, _ in figure(1))
+    for seed in SEEDS[2:]:
+        assert min(x for x, _ in figure(seed)) < -0.05 and max(x for x, _ in figure(seed)) > 0.3
+
+
 def test_both_sides_lengths_and_orders_occur():
     assert {side_of(seed) for seed in SEEDS} == {1, -1} == {side_of(1), side_of(2)}
     assert {desk_of(seed).machine.elbow_first for seed in SEEDS} == {True, False}
@@ -65,7 +71,9 @@ def test_one_path_of_three_goes_beyond_a_limit_and_the_others_take_less_than_a_l
             assert all(inside) == (path.kind != "beyond")
             ways = [max(map(abs, map(float.__sub__, b, a))) for a, b in itertools.pairwise(path.points)]
             assert path.kind == "beyond" or sum(ways) / CRUISE < LESSON / 2
-        assert sorted(path.kind for path in paths(seed)) == ["beyond", "good", "interrupted"]
+        kinds = [path.kind for path in paths(seed)]
+        assert sorted(kinds) == ["beyond", "good", "interrupted"]
+        assert kinds[-1] != "good", "after it the arm isn't where it was at the beginning"
 
 
 def test_a_lift_is_wanted_at_good_and_bad_places_and_gets_stuck_between_good_ones():

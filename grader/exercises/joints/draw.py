@@ -1,5 +1,6 @@
 """The project on joints: inverse kinematics, and a figure that the arm's tip draws."""
 
+import itertools
 import math
 
 from grader.checks import Missed, draws, hinting, keeps_off, otherwise, sends_goals
@@ -14,6 +15,7 @@ from sim.nanoseconds import in_seconds
 
 TOLERANCE = 0.015  # m
 SOON, JUMPS = 1.0, 0.5  # s: a first point so early is a jump, and the credit for it
+HALF_TURN = 2.5  # rad, and more: no two points of a figure are so far apart
 JUMP = "The arm needs time to get to the first point: give it 3 s, or it jumps there, as fast as it can."
 
 draw = Exercise("draw", "An arm that draws", world=desk_of, seconds=10, companions=designer, seeds=(1, 2))
@@ -47,6 +49,10 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
         lambda run: _comes_near(run, [(x, -y) for x, y in _figure(run)]),
     "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.":
         lambda run: _points(run)[0].time_from_start.sec < 1,
+    "The shoulder turns by half a turn between two points: where x < 0, atan(y / x) loses its sign, and "
+    "atan2(y, x) has it.":
+        lambda run: any(abs(after.positions[0] - before.positions[0]) > HALF_TURN
+                        for before, after in itertools.pairwise(_points(run))),
     "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "
     "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder take away what the bent elbow adds?":
         lambda run: not _comes_near(run, _figure(run)[:1]),

@@ -136,7 +136,7 @@ def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
         if sent != [outcome]:
             expected = f"“{outcome}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path"
             saw = ", ".join(f"“{text}”" for text in sent[:4]) or "nothing"
-            overtaken = any(path.stamp < other.stamp < goal.ended for other, _ in lessons)
+            overtaken = any(path.stamp < other.stamp <= goal.ended for other, _ in lessons)
             raise Missed(expected, saw, OVERTAKEN if overtaken else "", about=(outcome, sent))
 
 

@@ -41,9 +41,10 @@ class ArmNode(MachineNode):
             self._trajectories.abort_replaced("a command on /joint_commands")
 
     def joints(self) -> tuple[float, ...]:
-        """Angles (rad) and then rates (rad/s), in the order of the names in /joint_states."""
+        """Measured angles (rad) and then rates (rad/s), in the order of the names in /joint_states."""
         order = -1 if self.scene.model.elbow_first else 1
-        return *self.scene.positions[::order], *self.scene.velocities[::order]
+        shoulder, elbow, *rates = self.scene.measure()
+        return *(shoulder, elbow)[::order], *rates[::order]
 
     def sense(self, stamp: tuple[int, int]) -> None:
         """Publish the links' transforms, and monitor the active trajectory."""

@@ -25,5 +25,5 @@ class JointNode(MachineNode):
         self.apply_command(self.scene.command, command.data)
 
     def joints(self) -> tuple[float, ...]:
-        """The joint's angle (rad) and rate (rad/s)."""
-        return self.scene.position, self.scene.velocity
+        """The joint's measured angle (rad) and rate (rad/s)."""
+        return self.scene.measure()

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, MachineWorld, Pose, bar
-from sim.world.machines.servo import THICKNESS, JointModel, Servo
+from sim.world.machines.servo import THICKNESS, Encoder, JointModel, Servo
 from sim.world.machines.trajectory import Trajectory, Values, Waypoint
 from sim.world.robot import RATE, CommandError, wrap
 from sim.world.validated_model import Model
@@ -77,12 +77,12 @@ class ArmModel(Model):
 
 
 class Arm(Machine):
-    """The simulated arm; `world.machine` is its `ArmModel`. It is deterministic: the seed has no effect."""
+    """The simulated arm; `world.machine` is its `ArmModel`. The seed is for the encoders' noise."""
 
     def __init__(self, world: MachineWorld, seed: int = 0) -> None:
         super().__init__(world)
         self.model: ArmModel = world.machine
-        self._servos = [Servo(joint) for joint in self.model.joints]
+        self._servos, self._encoder = [Servo(joint) for joint in self.model.joints], Encoder(seed)
         self._reference = Trajectory([Waypoint(0.0, self.positions)])
 
     @property
@@ -100,6 +100,10 @@ class Arm(Machine):
     def velocities(self) -> Values:
         """The joint velocities, rad/s."""
         return tuple(servo.velocity for servo in self._servos)
+
+    def measure(self) -> Values:
+        """The encoders' measurements now: the angles (rad), then the velocities (rad/s), shoulder first."""
+        return self._encoder.measure(*self._servos)
 
     @property
     def desired(self) -> tuple[Values, Values]:

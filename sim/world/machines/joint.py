@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 
 from sim.world.machines.machine import Machine, MachineWorld, Pose
-from sim.world.machines.servo import Servo
+from sim.world.machines.servo import Encoder, Servo
 from sim.world.robot import CommandError
 
 
 class Joint(Machine):
-    """The simulated joint; `world.machine` is its `JointModel`. Deterministic: the seed has no effect."""
+    """The simulated joint; `world.machine` is its `JointModel`. The seed is for the encoder's noise."""
 
     def __init__(self, world: MachineWorld, seed: int = 0) -> None:
         super().__init__(world)
-        self._servo = Servo(world.machine)
+        self._servo, self._encoder = Servo(world.machine), Encoder(seed)
         self._target = self._servo.position
 
     @property
@@ -31,6 +31,10 @@ class Joint(Machine):
     def velocity(self) -> float:
         """The joint's velocity, rad/s."""
         return self._servo.velocity
+
+    def measure(self) -> tuple[float, ...]:
+        """The encoder's measurement now: the joint's angle (rad) and velocity (rad/s)."""
+        return self._encoder.measure(self._servo)
 
     def command(self, position: float) -> None:
         """Set the target angle (rad), clamped to the joint's limits.

@@ -6,10 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+
 from sim.world.bodies import Body
 from sim.world.machines.machine import bar
 from sim.world.robot import DT
-from sim.world.validated_model import Angle, Length, Model, positive
+from sim.world.validated_model import Angle, Length, Model, at_least, positive
 
 # Tolerance for a reference that changes velocity with exactly the greatest acceleration.
 _ROUNDING = 1 + 1e-9
@@ -26,6 +28,7 @@ class JointModel(Model):
         start: its angle at time 0.
         max_velocity, max_acceleration: the motor's limits in either direction.
         length: the link's length, from this joint to the next, or to the tip.
+        position_noise, velocity_noise: standard deviations of the encoder's measurements.
     """
 
     lower: Angle = -math.pi / 2
@@ -34,6 +37,8 @@ class JointModel(Model):
     max_velocity: Annotated[float, positive("rad/s", 100)] = 1.0
     max_acceleration: Annotated[float, positive("rad/s^2", 10_000)] = 2.0
     length: Length = 0.5
+    position_noise: Annotated[float, at_least(0, "radians")] = 0.0
+    velocity_noise: Annotated[float, at_least(0, "rad/s")] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -46,6 +51,23 @@ class JointModel(Model):
     def bodies(self) -> tuple[Body, ...]:
         """The link, with its x axis from the joint to the tip."""
         return (Body("link", "link", outline=bar(self.length, THICKNESS)),)
+
+
+class Encoder:
+    """Measures joints with the noise of their models; `seed` determines it."""
+
+    def __init__(self, seed: int) -> None:
+        self._rng = np.random.Generator(np.random.PCG64(seed))
+
+    def measure(self, *servos: Servo) -> tuple[float, ...]:
+        """The measured positions (rad), then the velocities (rad/s), of joints."""
+        true = [servo.position for servo in servos] + [servo.velocity for servo in servos]
+        noise = [servo.model.position_noise for servo in servos]
+        noise += [servo.model.velocity_noise for servo in servos]
+        if not any(noise):
+            return tuple(true)
+        errors = self._rng.standard_normal(len(true)).tolist()
+        return tuple(value + sigma * error for value, sigma, error in zip(true, noise, errors, strict=True))
 
 
 class Servo:

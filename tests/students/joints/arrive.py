@@ -207,6 +207,13 @@ class Silent(Patient):
         pass
 
 
+class ComparesForEquality(Patient):
+    """An encoder never measures exactly that."""
+
+    def has_arrived(self, position, velocity):
+        return position == self.target
+
+
 class FirstOnly(Patient):
     """Sends the first, and lets that be all: nothing comes too early."""
 

@@ -81,13 +81,13 @@ class ByTheCosineLaw(Artist):
 
 
 class TriesBoth(Artist):
-    """Both ways, and takes the one whose elbow is where the figure is."""
+    """Both ways, and takes the one whose elbow bends away from the figure's side."""
 
     def inverse(self, x, y):
         ways = []
         for self.sign in (1.0, -1.0):
             ways.append(super().inverse(x, y))
-        return max(ways, key=lambda way: math.sin(way[0]) * y)
+        return min(ways, key=lambda way: way[1] * y)
 
     def side(self, y):
         return self.sign
@@ -108,6 +108,13 @@ class ElbowAlwaysNegative(Artist):
 class AtanInsteadOfAtan2(Artist):
     def direction(self, x, y):
         return math.atan(x / y)
+
+
+class AtanOfTheQuotient(Artist):
+    """Right where x > 0; behind the shoulder it is half a turn off."""
+
+    def direction(self, x, y):
+        return math.atan(y / x)
 
 
 class Degrees(Artist):

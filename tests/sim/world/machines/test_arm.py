@@ -221,3 +221,12 @@ def test_no_command_makes_a_joint_exceed_a_limit(seed):
     arm.command((joint.upper, joint.lower))
     arm.advance(arm.time + 60)
     assert (arm.positions, arm.velocities) == ((joint.upper, joint.lower), (0.0, 0.0))
+
+
+def test_each_joint_of_an_arm_has_the_noise_of_its_own_encoder():
+    noisy = dataclasses.replace(MODEL, elbow=dataclasses.replace(FAST, position_noise=0.001))
+    arm = alone(noisy, seed=1)
+    shoulder, elbow, *velocities = arm.measure()
+    assert shoulder == 0.0 != elbow
+    assert velocities == [0.0, 0.0]
+    assert alone(MODEL).measure() == (0.0, 0.0, 0.0, 0.0)

@@ -1,6 +1,8 @@
 """One joint against the closed form of its trapezoidal profile."""
 
+import dataclasses
 import math
+import statistics
 
 import pytest
 
@@ -126,3 +128,26 @@ def test_invalid_parameters(values, sentence):
     with pytest.raises(WorldError) as caught:
         JointModel(**values)
     assert str(caught.value) == f"JointModel: {sentence}"
+
+
+def test_an_encoder_measures_with_noise_and_the_joint_moves_as_without():
+    noisy = dataclasses.replace(MODEL, position_noise=0.001, velocity_noise=0.002)
+    exact, joint = alone(MODEL), alone(noisy, seed=1)
+    for each in (exact, joint):
+        each.command(1.2)
+    rows = []
+    for _, _ in zip(steps(exact, 3), steps(joint, 3), strict=True):
+        assert exact.measure() == (exact.position, exact.velocity) == (joint.position, joint.velocity)
+        position, velocity = joint.measure()
+        rows.append((position - joint.position, velocity - joint.velocity))
+    for errors, sigma in zip(zip(*rows, strict=True), (0.001, 0.002), strict=True):
+        assert statistics.pstdev(errors) == pytest.approx(sigma, rel=0.2)
+        assert max(map(abs, errors)) < 5 * sigma
+
+
+def test_equal_seeds_give_equal_measurements():
+    noisy = dataclasses.replace(MODEL, position_noise=0.001)
+    joints = [alone(noisy, seed=seed) for seed in (1, 1, 2)]
+    measured = [[joint.measure() for _ in range(3)] for joint in joints]
+    assert measured[0] == measured[1] != measured[2]
+    assert {velocity for _, velocity in measured[0]} == {0.0}
