@@ -44,7 +44,7 @@ class Navigator(Node):
             cancel_callback=lambda goal_handle: CancelResponse.ACCEPT,
         )
 
-    # -- what it hears --
+    # -- what it receives --
 
     def on_map(self, msg):
         """Keep the map, and a second copy for what the lidar sees beside it."""
@@ -180,7 +180,7 @@ def main(args=None):
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     node = Navigator()
-    executor = MultiThreadedExecutor(num_threads=4)  # one waits in execute, the others hear
+    executor = MultiThreadedExecutor(num_threads=4)  # one waits in execute, the others receive
     executor.add_node(node)
     try:
         executor.spin()

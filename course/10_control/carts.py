@@ -19,7 +19,8 @@ def cart(**figures):
 
 def said_of(recording):
     """How wide the pole swung; or when it fell."""
-    angles = [(heard.stamp, abs(heard.message.position[1])) for heard in recording.messages("/joint_states")]
+    states = recording.messages("/joint_states")
+    angles = [(state.stamp, abs(state.message.position[1])) for state in states]
     fell = next((stamp for stamp, angle in angles if angle > 0.5), None)
     if fell is not None:
         return f"falls at {fell:.2f} s"
@@ -33,10 +34,10 @@ class Slope(Node):
         super().__init__("slope")
         self.speed = 0.0
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(Float64, "/speed", self.hear, 10)
+        self.create_subscription(Float64, "/speed", self.on_message, 10)
         self.create_timer(0.05, self.drive)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         """Remember the speed; the motors give 0.3 m/s at most."""
         self.speed = max(-0.3, min(0.3, msg.data))
 

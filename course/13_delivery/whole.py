@@ -120,7 +120,7 @@ class Control(Node):
     def __init__(self):
         super().__init__("control")
         self.floor = self.goal = self.pose = None
-        self.people, self.obstacles, self.heard, self.way = [], [], -math.inf, []
+        self.people, self.obstacles, self.received, self.way = [], [], -math.inf, []
         self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
         self.create_subscription(PoseArray, "people", self.on_people, 10)
         self.create_subscription(PoseArray, "obstacles", self.on_obstacles, 10)
@@ -150,7 +150,7 @@ class Control(Node):
 
     def on_pose(self, message):
         """Where the robot is, and when it was seen there."""
-        self.pose, self.heard = flat(message.pose), seconds(message.header.stamp)
+        self.pose, self.received = flat(message.pose), seconds(message.header.stamp)
 
     def plan(self):
         """Once a second: a new way, past what stands there now."""
@@ -159,7 +159,7 @@ class Control(Node):
 
     def is_safe(self):
         """Whether what is known is new, and nobody walks near."""
-        age = seconds(self.get_clock().now().to_msg()) - self.heard
+        age = seconds(self.get_clock().now().to_msg()) - self.received
         return age < 0.5 and all(math.dist(self.pose[:2], place) > 1.5 for place in self.people)
 
     def drive(self):

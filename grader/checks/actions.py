@@ -159,7 +159,7 @@ def _keeps_rate(recording: Recording, goal: Goal, hz: float, tolerance: float) -
 
 
 def _goes_one_way(goal: Goal, field: str, sign: int) -> None:
-    values = [(heard.stamp, read(heard.message, field)) for heard in goal.feedback]
+    values = [(received.stamp, read(received.message, field)) for received in goal.feedback]
     for (_, before), (stamp, after) in itertools.pairwise(values):
         if not sign * after >= sign * before:  # so that NaN doesn't pass
             saw = f"{after!r} after {before!r} at {stamp:.3g} s"

@@ -125,7 +125,7 @@ def keeps_deadline(
 
     Raises Missed where it is longer than `limit`, with how often it was: each time is a missed deadline.
     """
-    sent = [heard.stamp for heard in publishes(run, topic) if heard.stamp >= begin]
+    sent = [received.stamp for received in publishes(run, topic) if received.stamp >= begin]
     moments = [begin, *sent, max(worked_until(run), begin)]
     late = [(b - a, a) for a, b in itertools.pairwise(moments) if b - a > limit + 1e-6]
     if late:
@@ -157,7 +157,7 @@ def _place_is_turned(run: Recording, fell: Seconds) -> bool:
 
 def _why_it_fell(run: Recording, fell: Seconds) -> str:
     """The causes that can be seen in the efforts and the cart."""
-    sent = [(heard.stamp, heard.message.data) for heard in run.messages(EFFORT) if heard.stamp < fell]
+    sent = [(effort.stamp, effort.message.data) for effort in run.messages(EFFORT) if effort.stamp < fell]
     if not sent:
         return NO_EFFORT
     first = next((push for _, push in sent if push), 0.0)

@@ -33,7 +33,7 @@ class Job(NamedTuple):
 
 
 class ShiftProgram(NamedTuple):
-    """What one of the student's nodes did: the messages it sent by topic, what it hears, and its errors."""
+    """What one of the student's nodes did: messages sent by topic, subscriptions, and errors."""
 
     sent: dict[str, int]
     subscribes: tuple[str, ...]

@@ -21,9 +21,9 @@ def evidence_of(recording: Recording) -> Recording:
     return replace(
         recording,
         published=[
-            heard
-            for heard in recording.published
-            if heard.from_course or heard.topic not in ours["publisher"]
+            received
+            for received in recording.published
+            if received.from_course or received.topic not in ours["publisher"]
         ],
         calls=[call for call in recording.calls if not _among_themselves(call)],
         goals=[goal for goal in recording.goals if not _among_themselves(goal)],

@@ -22,15 +22,14 @@ def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int
     """
     expected = f"messages of type {type} on {topic}" if type else f"messages on {topic}"
     declared(recording, "publisher", topic, type, expected)
-    heard = recording.messages(topic)
-    if len(heard) < at_least:
-        saw = (
-            f"only {len(heard)} in {recording.ended.stamp:.3g} s" if heard else "a publisher, but no message"
-        )
+    received = recording.messages(topic)
+    if len(received) < at_least:
+        few = f"only {len(received)} in {recording.ended.stamp:.3g} s"
+        saw = few if received else "a publisher, but no message"
         expected = expected if at_least == 1 else f"{at_least} or more {expected}"
-        again = "Publish at each call of a timer's callback, from start to end." if heard else ""
+        again = "Publish at each call of a timer's callback, from start to end." if received else ""
         raise Missed(expected, saw, guess=again, picture="topics")
-    return heard
+    return received
 
 
 def subscribes(recording: Recording, topic: str, type: str = "") -> list[Endpoint]:
@@ -44,7 +43,7 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
 
     tolerance: as a fraction of `hz`. The first message may come two periods after the nodes' start.
     """
-    stamps = [heard.stamp for heard in publishes(recording, topic, at_least=2)]
+    stamps = [received.stamp for received in publishes(recording, topic, at_least=2)]
     expected = f"{hz:.4g} Hz on {topic}, within {tolerance:.0%}"
     _can_be_received(recording, topic, expected)
     measured = mean_rate(stamps)
@@ -134,5 +133,5 @@ def within(
 
 def series(recording: Recording, topic: str, field: str) -> list[tuple[Seconds, Any]]:
     """A field's values with their stamps; `field` may have dots, such as "linear.x"."""
-    read = [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+    read = [(received.stamp, received.message) for received in recording.messages(topic)]
     return [(stamp, functools.reduce(getattr, field.split("."), message)) for stamp, message in read]

@@ -86,7 +86,7 @@ class FaultySensor(Node):
 class ConfigurableDisplay(Node):
     """Subscribes to a sensor. Its parameters set the topic and the QoS.
 
-    Each time one of them is set, it subscribes again. It publishes what it receives on /heard, and what is
+    Each time one of them is set, it subscribes again. It publishes what it receives on /received, and what is
     set on /changes, both after the name of the topic that it has at the beginning.
     """
 
@@ -100,7 +100,7 @@ class ConfigurableDisplay(Node):
             "durability": TRANSIENT[case.fault == "durability"].name.lower(),
             "deadline": WANTED if case.fault == "deadline" else 0.0,
         }
-        self.received = self.create_publisher(String, "/heard", 10)
+        self.received = self.create_publisher(String, "/received", 10)
         self.changes = self.create_publisher(String, "/changes", 10)
         for name, value in settings.items():
             self.declare_parameter(name, value)

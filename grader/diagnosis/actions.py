@@ -1,4 +1,4 @@
-"""Goals of actions that don't end as they should: forgotten endings, and cancels that nobody hears."""
+"""Goals of actions that don't end as they should: forgotten endings, and cancels that go unnoticed."""
 
 from __future__ import annotations
 
@@ -49,14 +49,14 @@ def cancel_ignored(recording: Recording) -> str:
 
 
 def cancel_not_handled(recording: Recording) -> str:
-    """A server that is too busy with a goal to hear that it should cancel it."""
+    """A server that is too busy with a goal to notice its cancel request."""
     for goal in recording.goals:
-        asked, heard = goal.at(CANCEL_REQUESTED), goal.at("canceling") or goal.at(CANCEL_REJECTED)
-        if asked is None or goal.at("executing") is None or (heard is not None and heard <= asked):
+        asked, noticed = goal.at(CANCEL_REQUESTED), goal.at("canceling") or goal.at(CANCEL_REJECTED)
+        if asked is None or goal.at("executing") is None or (noticed is not None and noticed <= asked):
             continue
-        if heard is None and recording.ended.stamp - asked < _LAST_MOMENT:
+        if noticed is None and recording.ended.stamp - asked < _LAST_MOMENT:
             continue
-        if not goal.over or (heard is not None and goal.at(goal.status) <= heard):
+        if not goal.over or (noticed is not None and goal.at(goal.status) <= noticed):
             held = _cancel_callback(recording, goal, asked)
             if held > 0.0:
                 return (
@@ -65,7 +65,7 @@ def cancel_not_handled(recording: Recording) -> str:
                     "CancelResponse.ACCEPT at once, and do what takes time in execute, once "
                     "goal_handle.is_cancel_requested is True."
                 )
-            late = f"received it only at {heard:.3g} s" if heard is not None else "never received it"
+            late = f"received it only at {noticed:.3g} s" if noticed is not None else "never received it"
             return (
                 f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} {late}: "
                 "the execute callback kept the node busy. Spin the node with a "

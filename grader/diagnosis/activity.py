@@ -44,7 +44,7 @@ def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -
 
 
 def busy_listener(recording: Recording) -> str:
-    """A subscription that hears only some of its messages, for its callbacks take too long."""
+    """A subscription that misses messages because its callbacks take too long."""
     for node in dict.fromkeys(end.node for end in recording.graph.subscriptions()):
         of_node = [run for run in recording.callbacks if run.node == node]
         taken = [run for run in of_node if run.kind == "subscription"]
@@ -52,7 +52,8 @@ def busy_listener(recording: Recording) -> str:
         if slowest is None or node in recording.course_nodes:
             continue
         topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
-        sent = sum(heard.topic in topics and heard.stamp >= taken[0].stamp for heard in recording.published)
+        meant = [message for message in recording.published if message.topic in topics]
+        sent = sum(message.stamp >= taken[0].stamp for message in meant)
         busy = sum(run.duration for run in of_node) / (recording.ended.stamp - taken[0].stamp or 1.0)
         if busy > 0.8 and len(taken) < 0.8 * sent and _holds_up(slowest, of_node, 0.0):
             return (
@@ -89,7 +90,7 @@ def _waiting_work(recording: Recording, node: str) -> str:
     served = {end.name for end in recording.graph.ends("service") if end.node == node}
     acting = {end.name for end in recording.graph.ends("action server") if end.node == node}
     spun = any(row.node == node and row.fact == SPUN for row in recording.node_facts)
-    if not spun and any(heard.topic in listening for heard in recording.published):
+    if not spun and any(received.topic in listening for received in recording.published):
         return "a subscription with messages waiting"
     if any(call.service in served and not call.lost for call in recording.calls):
         return "a service with requests waiting"
@@ -134,7 +135,7 @@ def quiet_publisher(recording: Recording) -> str:
 
 
 def _silent_publisher(recording: Recording, excused: set[str]) -> str:
-    used = {(heard.sender, heard.topic) for heard in recording.published}
+    used = {(received.sender, received.topic) for received in recording.published}
     for end in recording.graph.publishers():
         if (
             (end.node, end.name) in used

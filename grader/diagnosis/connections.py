@@ -42,12 +42,12 @@ def _fix(publisher: Endpoint, subscription: Endpoint, found: tuple[str, str, str
 def publisher_for_each_message(recording: Recording, topic: str | None = None) -> str:
     """Publishers that are made for a message each, most of which come before anybody has found them.
 
-    topic: one, or all. Who waits before it publishes is heard, and is not meant.
+    topic: one, or all. A node that waits before it publishes is received, and is not meant.
     """
     made = Counter((end.node, end.name) for end in recording.graph.publishers(topic) if not end.from_course)
     for (node, name), publishers in made.items():
         messages = recording.messages(name, node)
-        lost = sum(heard.early for heard in messages)
+        lost = sum(received.early for received in messages)
         if publishers > 1 and lost > max(1, len(messages) / 2):
             return (
                 f"{node} made {publishers} publishers on {name} for {len(messages)} messages. Two programs"
@@ -84,5 +84,5 @@ def _is_loss(recording: Recording, row: UndeliveredMessage) -> bool:
     """Whether a student's node never says again what reached nobody: a loop says it twenty times a second."""
     if row.node in recording.course_nodes:
         return False
-    said = [heard for heard in recording.messages(row.topic, row.node) if heard.stamp >= row.stamp]
+    said = [received for received in recording.messages(row.topic, row.node) if received.stamp >= row.stamp]
     return all(again.raw != said[0].raw for again in said if again.stamp > row.stamp)

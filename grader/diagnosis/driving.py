@@ -155,7 +155,7 @@ def _timeout(recording: Recording) -> Seconds:
 
 
 def _passing_on(recording: Recording, topic: str) -> set[str]:
-    """The nodes that hear commands elsewhere: who passes them on, as a mux, falls silent with those."""
+    """The nodes that subscribe to other commands, as a mux does: it is silent while those are."""
     return {end.node for end in recording.graph.subscriptions() if end.type == _TWIST and end.name != topic}
 
 
@@ -165,8 +165,8 @@ def _of_robots(recording: Recording) -> Iterator[tuple[str, list[VelocityCommand
         if end.type != _TWIST or end.node not in recording.course_nodes or not end.node.endswith("/robot"):
             continue
         commands = [
-            VelocityCommand(heard.stamp, heard.sender, heard.message.linear.x, heard.message.angular.z)
-            for heard in recording.messages(end.name)
+            VelocityCommand(sent.stamp, sent.sender, sent.message.linear.x, sent.message.angular.z)
+            for sent in recording.messages(end.name)
         ]
         if any(not recording.is_course_node(command.sender) for command in commands):
             yield end.name, commands

@@ -33,12 +33,12 @@ def topic_name_typo(recording: Recording) -> str:
     Between programs of ours it is what the exercise is about.
     """
     published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
-    heard = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
-    for name, near in _nearly_met(heard, published):
-        if _may_be_typo(published[near], heard[name]):
+    subscribed = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
+    for name, near in _nearly_met(subscribed, published):
+        if _may_be_typo(published[near], subscribed[name]):
             return (
-                f"{published[near].node} publishes on {near}, {heard[name].node} listens on {name}: "
-                f"two different topics. {name_difference(published[near], heard[name])}"
+                f"{published[near].node} publishes on {near}, {subscribed[name].node} listens on {name}: "
+                f"two different topics. {name_difference(published[near], subscribed[name])}"
             )
     return ""
 
@@ -90,7 +90,7 @@ def _similarity(one: str, other: str) -> float:
 
 
 def misspelt(recording: Recording) -> list[tuple[str, str]]:
-    """Names by which a student's program hears or asks nobody, each with the one that was probably meant.
+    """Names in a student's program that match no other node, each with the one that was probably meant.
 
     Another namespace is no misspelling.
     """

@@ -18,12 +18,12 @@ NO_WAY = ("-inf", "nan")  # kinds that must not be taken for a free way
 def rays_without_distance(
     recording: Recording, node: str, until: Seconds, kinds: Iterable[str] = tuple(_KINDS)
 ) -> str:
-    """A sentence on the last scan a node could hear: the first ray of each of these kinds; "" without any."""
+    """The first ray of each of these kinds in the last scan that a node could receive; "" without any."""
     topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
     scans = [
-        heard
-        for heard in recording.published
-        if heard.topic in topics and heard.type == "sensor_msgs/msg/LaserScan" and heard.stamp <= until
+        sent
+        for sent in recording.published
+        if sent.topic in topics and sent.type == "sensor_msgs/msg/LaserScan" and sent.stamp <= until
     ]
     if not scans:
         return ""

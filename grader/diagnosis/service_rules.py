@@ -143,7 +143,7 @@ SERVICE_RULES = (
     Rule(
         "AttributeError", r"'ClientGoalHandle' object has no attribute '\w+'",
         "The first answer only says whether the goal is accepted. The result comes later: "
-        "`goal_handle.get_result_async().add_done_callback(self.hear_result)`.",
+        "`goal_handle.get_result_async().add_done_callback(self.on_result)`.",
     ),
     Rule(
         "AttributeError", r"^(\w+) cannot be modified after node creation",

@@ -60,9 +60,9 @@ def response_not_received(recording: Recording) -> str:
     """A client whose answer came, but whose node didn't spin any more, or never did."""
     if recording.ended.reason == "blocked":
         return ""
-    heard = [(c.service, c.client, c.requested, c.answered, c.received) for c in recording.calls]
-    heard += [(g.action, g.client, g.requested, _decided(g.events), g.answered) for g in recording.goals]
-    for name, client, asked, answered, received in heard:
+    exchanges = [(c.service, c.client, c.requested, c.answered, c.received) for c in recording.calls]
+    exchanges += [(g.action, g.client, g.requested, _decided(g.events), g.answered) for g in recording.goals]
+    for name, client, asked, answered, received in exchanges:
         if asked is None or answered is None or received is not None or not client:
             continue
         if any(run.node == client and run.stamp + run.duration >= answered for run in recording.callbacks):
@@ -91,7 +91,7 @@ def response_dropped(recording: Recording) -> str:
             return (
                 f"{call.client} called {call.service} at {call.requested:.3g} s, and the answer came at "
                 f"{call.received:.3g} s, but nothing took it: "
-                "`call_async(request).add_done_callback(self.hear)` names the method that receives it."
+                "`call_async(request).add_done_callback(self.on_response)` names the method that receives it."
             )
     return ""
 

@@ -69,12 +69,12 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
     sent += [(goal.client, goal.answered, goal.received, "get_result_async") for goal in recording.goals]
     runs = [run for run in recording.callbacks if (run.node, run.callback) == (error.node, error.callback)]
     begin = max((run.stamp for run in runs if run.stamp <= error.stamp), default=0.0)
-    for client, asked, heard, what in sent:
-        if client == error.node and heard is None and asked is not None and asked >= begin:
+    for client, asked, received, what in sent:
+        if client == error.node and received is None and asked is not None and asked >= begin:
             return (
                 f"The answer isn't there yet: {what} returns at once, with a future that is still empty. "
-                "`future.add_done_callback(self.hear)`, without brackets after the method, lets ROS call it "
-                "once the answer has come; there future.result() is the answer."
+                "`future.add_done_callback(self.on_response)`, without brackets after the method, lets ROS "
+                "call it once the answer has come; there future.result() is the answer."
             )
     return ""
 
@@ -84,7 +84,7 @@ def _nothing_received(error: CallbackError, recording: Recording) -> str:
     found = re.search(r"'NoneType' object has no attribute '(\w+)'", error.text)
     if found is None:
         return ""
-    come = {heard.topic for heard in recording.published if heard.stamp < error.stamp}
+    come = {received.topic for received in recording.published if received.stamp < error.stamp}
     for end in recording.graph.subscriptions():
         waits = end.node == error.node and end.name not in come
         if waits and found[1] in message_class(end.type).get_fields_and_field_types():

@@ -32,7 +32,7 @@ def settings(profile: Any) -> dict[str, Any]:
 
 
 def refusal(offered: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str, str, str] | None:
-    """Why a subscription hears nothing of a publisher: the policy, what is offered, what is asked for.
+    """Why a subscription receives nothing from a publisher: the policy, what is offered, what is asked for.
 
     None where the two fit. What isn't known of one of them fits.
     """

@@ -10,7 +10,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class Avoider(Node):
-    """Hears /scan and /odom at 20 Hz, sends /cmd_vel at 10 Hz."""
+    """Receives /scan and /odom at 20 Hz, sends /cmd_vel at 10 Hz."""
 
     def __init__(self):
         super().__init__("avoider")

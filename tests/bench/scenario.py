@@ -46,7 +46,7 @@ def lockstep(program: Any = None) -> Counts:
     recording = avoider_run(program, world="room", seconds=SECONDS)
     called = [(call.node, call.callback) for call in recording.callbacks]
     return {
-        "clocks": len([heard for heard in recording.messages("/clock") if heard.stamp > 0]),
+        "clocks": len([received for received in recording.messages("/clock") if received.stamp > 0]),
         "scans": called.count(("/avoider", "Avoider.on_scan")),
         "odoms": called.count(("/avoider", "Avoider.on_odom")),
         "commands": len(recording.messages("/cmd_vel")),

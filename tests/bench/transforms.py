@@ -1,4 +1,4 @@
-"""Lookups in tf2_ros' buffer against a naive list: all that was heard, looked through from the beginning."""
+"""Lookups in tf2_ros' buffer against a naive list: all received ones, searched from the beginning."""
 
 import itertools
 import math
@@ -18,7 +18,7 @@ SECONDS, LOOKUPS = 10.0, 200
 Pose = tuple[float, float, float]  # x, y (m), yaw (rad)
 
 
-def heard(rate: float) -> list[TransformStamped]:
+def received(rate: float) -> list[TransformStamped]:
     """What moving frames say in 10 s, in the order in which it comes."""
     said = []
     for tick in range(1, round(SECONDS * rate) + 1):
@@ -77,7 +77,7 @@ def main() -> None:
     """Ask both for the same moments, and compare what they say."""
     rows = []
     for rate in (20, 100):
-        said, chance = heard(rate), random.Random(1)
+        said, chance = received(rate), random.Random(1)
         moments = [Time(seconds=chance.uniform(0.5, SECONDS - 0.5)) for _ in range(LOOKUPS)]
         seconds, answers = {}, {}
         for name, make in (("naive list", naive), ("tf2_ros", buffered)):

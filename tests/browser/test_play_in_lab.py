@@ -35,7 +35,7 @@ def way(player):
 
 def sent(player, topic):
     "What the newest command on a topic was, and how many there were."
-    twists = [heard.message for heard in player.recording.messages(topic)]
+    twists = [received.message for received in player.recording.messages(topic)]
     return [len(twists), twists[-1].linear.x, twists[-1].angular.z] if twists else [0, 0.0, 0.0]
 """
 DRIVEN = "player = play(Teleop, world='yard', seconds=600)"

@@ -19,8 +19,8 @@ class TestActions(Assignment):
         assert "did not return a GoalResponse" in cells["reject-true"].text
         for deaf in ("cancel-run", "threads-group-run"):
             assert cells[deaf].text.endswith("5.5 s  succeeded\n5.5 s  cancel rejected\n")
-        for heard in ("threads-run", "pause-run"):
-            assert "status 5, result [0, 1, 1, 2, 3]" in cells[heard].text
+        for received in ("threads-run", "pause-run"):
+            assert "status 5, result [0, 1, 1, 2, 3]" in cells[received].text
         assert cells["drive-blind-run"].text == "the robot is at x = 2.76 m, and the goal is executing\n"
         assert "canceled after 0.98 m" in cells["honest-cancel"].text
         assert "DishonestServer: 0.22 m further" in cells["dishonest-run"].text

@@ -46,7 +46,7 @@ def path(value):
 class Says(NamedTuple):
     """What an exercise's node listens to, with the profile; what it publishes; a number that is none."""
 
-    hears: tuple
+    receives: tuple
     topics: dict
     strange: float
     for_being_there: float  # points
@@ -161,11 +161,11 @@ def test_a_costmap_has_as_many_cells_as_its_map():
     ids=lambda value: getattr(value, "name", ""),
 )
 def test_a_run_that_hangs_before_there_is_something_to_judge_misses(check, handed, due):
-    heard = [published("/cell_center", [(0.0, PointStamped())]), published("/plan", [(0.0, Path())])]
+    received = [published("/cell_center", [(0.0, PointStamped())]), published("/plan", [(0.0, Path())])]
     cut = dataclasses.replace(
-        heard[0],
-        published=[*heard[0].published, *heard[1].published],
-        graph=Graph(["/talker"], [*heard[0].graph.endpoints, *heard[1].graph.endpoints]),
+        received[0],
+        published=[*received[0].published, *received[1].published],
+        graph=Graph(["/talker"], [*received[0].graph.endpoints, *received[1].graph.endpoints]),
         ended=Ended("hang", 0.2, "The callback tick never returned."),
     )
     with pytest.raises(Missed) as caught:

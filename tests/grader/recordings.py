@@ -16,10 +16,10 @@ def recording(*, seconds=10.0, **evidence):
 def published(topic, messages, *, seconds=10.0, listeners=()):
     """A run in which /talker sent messages, given as pairs of stamp and message, all of one type."""
     type = type_name(messages[0][1].__class__)
-    heard = [Message(stamp, topic, type, "/talker", encode(message)) for stamp, message in messages]
+    received = [Message(stamp, topic, type, "/talker", encode(message)) for stamp, message in messages]
     ends = [Endpoint("publisher", "/talker", topic, type, {})]
     ends += [Endpoint("subscription", node, topic, type, {}) for node in listeners]
-    return recording(seconds=seconds, published=heard, graph=Graph(["/talker", *listeners], ends))
+    return recording(seconds=seconds, published=received, graph=Graph(["/talker", *listeners], ends))
 
 
 def logged(*lines):

@@ -551,8 +551,8 @@ def test_the_guess_stands_last_after_hint_and_diagnosis():
     guessing = Exercise("talk", "A talker")
 
     @guessing.check(1, guess="Perhaps the topic is another.")
-    def hears_more(run):
-        """It hears more."""
+    def receives_more(run):
+        """It receives more."""
         raise Missed("more", "less")
 
     assert red_line(guessing.grade(misfits.Talker))[3] == "Perhaps the topic is another."

@@ -66,19 +66,19 @@ class FaultyCompanion(Questioner):
 
 
 @check(points=1)
-def hears(recording):
-    """The node logs what it hears."""
-    logs(recording, "heard")
+def receives(recording):
+    """The node logs what it receives."""
+    logs(recording, "received")
 
 
 def test_companions_run_beside_the_students_node():
-    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
+    listen = Exercise("listen", "A listener", checks=[receives], companions=[Questioner])
     assert listen.grade(misfits.Listener) == 1.0
     assert listen.grade(misfits.Empty) == 0.0
 
 
 def test_companions_are_up_before_the_students_node():
-    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
+    listen = Exercise("listen", "A listener", checks=[receives], companions=[Questioner])
     assert listen.grade(misfits.Listener).recordings[0].graph.nodes == ["/questioner", "/listener"]
 
 
@@ -87,7 +87,7 @@ def test_companions_may_depend_on_the_seed():
     listen = Exercise(
         "listen",
         "A listener",
-        checks=[hears],
+        checks=[receives],
         seeds=(3, 5),
         companions=lambda seed: asked.append(seed) or [Questioner],
     )
@@ -97,17 +97,17 @@ def test_companions_may_depend_on_the_seed():
 
 @pytest.mark.parametrize("companion", [FaultyCompanion, Process(FaultyCompanion, name="asker")])
 def test_an_error_of_a_companion_is_a_mistake_of_ours(companion):
-    score = Exercise("listen", "A listener", checks=[hears], companions=[companion]).grade(misfits.Listener)
-    assert (score, statuses(score)) == (0.0, {"hears": "broken"})
+    score = Exercise("listen", "A listener", checks=[receives], companions=[companion]).grade(misfits.Listener)
+    assert (score, statuses(score)) == (0.0, {"receives": "broken"})
     assert "CompanionError: /" in score.broken[0].alarm
     assert "KeyError: 'ours'" in score.broken[0].alarm
 
 
 def test_an_error_of_the_student_beside_a_companion_is_the_students():
-    score = Exercise("listen", "A listener", checks=[hears], companions=[Questioner]).grade(
+    score = Exercise("listen", "A listener", checks=[receives], companions=[Questioner]).grade(
         mistakes.DividesByZero
     )
-    assert statuses(score) == {"runs": "failed", "hears": "skipped"}
+    assert statuses(score) == {"runs": "failed", "receives": "skipped"}
 
 
 def test_a_run_can_end_early():

@@ -118,7 +118,7 @@ def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     )
 
 
-def test_a_name_by_which_nothing_is_heard_is_a_slip_and_another_namespace_or_a_pair_of_ours_is_none():
+def test_a_name_by_which_nothing_is_received_is_a_slip_and_another_namespace_or_a_pair_of_ours_is_none():
     def end(kind, name, ours):
         return Endpoint(kind, "/a", name, "std_msgs/msg/Bool", {}, ours)
 

@@ -40,7 +40,7 @@ class Copy(Node):
     def __init__(self):
         super().__init__("copy")
         self.broadcaster = TransformBroadcaster(self)
-        self.create_subscription(Odometry, "odom", self.hear, 10)
+        self.create_subscription(Odometry, "odom", self.on_message, 10)
         self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
         self.create_timer(0.1, self.drive)
 
@@ -49,7 +49,7 @@ class Copy(Node):
         command.linear.x, command.angular.z = 0.2, 0.5
         self.publisher.publish(command)
 
-    def hear(self, odom):
+    def on_message(self, odom):
         sent = fixed("odom", "copy", odom.pose.pose.position.x)
         sent.header.stamp = odom.header.stamp
         sent.transform.translation.y = odom.pose.pose.position.y
@@ -196,7 +196,7 @@ def test_a_coroutine_awaits_a_transform():
     assert recording.logs[0].stamp == pytest.approx(1.0)
 
 
-def test_a_listener_with_a_thread_of_its_own_hears_while_main_waits():
+def test_a_listener_with_a_thread_of_its_own_receives_while_main_waits():
     recording = run(own_thread, world="yard", seconds=3, quiet=True)
     assert lines(recording) == ["0 ns off"]
 

@@ -1,4 +1,4 @@
-"""Nodes for pictures of graphs: each is made of what it publishes, hears, offers and asks for."""
+"""Nodes for pictures of graphs: each is made of what it publishes, receives, offers and asks for."""
 
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import Trigger

@@ -12,12 +12,12 @@ OF_TOPIC_2 = SENT[2::3]
 
 
 def test_a_list_that_grows_is_gone_on_with():
-    by_topic, heard = ByTopic(), []
-    assert by_topic.of(heard, "/topic2") == []
+    by_topic, received = ByTopic(), []
+    assert by_topic.of(received, "/topic2") == []
     for message in SENT:
-        heard.append(message)
-        assert by_topic.of(heard, "/topic2") == [it for it in heard if it.topic == "/topic2"]
-    assert by_topic.of(heard, "/none") == []
+        received.append(message)
+        assert by_topic.of(received, "/topic2") == [it for it in received if it.topic == "/topic2"]
+    assert by_topic.of(received, "/none") == []
 
 
 def test_what_was_given_is_a_list_of_its_own():
@@ -27,14 +27,14 @@ def test_what_was_given_is_a_list_of_its_own():
 
 
 def test_a_list_that_was_changed_is_looked_at_anew():
-    by_topic, heard = ByTopic(), list(SENT)
-    assert by_topic.of(heard, "/topic2") == OF_TOPIC_2
-    heard[:] = [message._replace(topic="/topic2") for message in heard]
-    assert by_topic.of(heard, "/topic2") == heard
-    del heard[10:]
-    assert by_topic.of(heard, "/topic2") == heard
-    heard.clear()
-    assert by_topic.of(heard, "/topic2") == []
+    by_topic, received = ByTopic(), list(SENT)
+    assert by_topic.of(received, "/topic2") == OF_TOPIC_2
+    received[:] = [message._replace(topic="/topic2") for message in received]
+    assert by_topic.of(received, "/topic2") == received
+    del received[10:]
+    assert by_topic.of(received, "/topic2") == received
+    received.clear()
+    assert by_topic.of(received, "/topic2") == []
     assert by_topic.of(SENT, "/topic2") == OF_TOPIC_2
 
 

@@ -65,13 +65,13 @@ def refused(path):
 
 
 def test_messages_are_found_by_topic_and_sender(driven):
-    heard = driven.messages("/count")
-    assert [(h.stamp, h.topic, h.type, h.sender) for h in heard[:2]] == [
+    received = driven.messages("/count")
+    assert [(h.stamp, h.topic, h.type, h.sender) for h in received[:2]] == [
         (0.5, "/count", "std_msgs/msg/Int32", "/counter"), (1.0, "/count", "std_msgs/msg/Int32", "/counter"),
     ]  # fmt: skip
-    assert driven.messages("/count", sender="/counter") == heard
+    assert driven.messages("/count", sender="/counter") == received
     assert driven.messages("/count", sender="/robot") == []
-    assert driven.messages(sender="/counter") == heard
+    assert driven.messages(sender="/counter") == received
     assert driven.messages("count") == []
 
 
@@ -81,9 +81,9 @@ def test_chatter_of_ros_itself_is_shown_only_when_asked_for(driven):
 
 
 def test_each_reader_gets_a_copy_of_a_message(driven):
-    heard = driven.messages("/count")[0]
-    heard.message.data = 99
-    assert heard.message == Int32(data=1)
+    received = driven.messages("/count")[0]
+    received.message.data = 99
+    assert received.message == Int32(data=1)
 
 
 def test_topics_are_sorted_and_typed(driven):
@@ -103,24 +103,24 @@ def test_a_recording_says_what_it_is(driven):
 
 
 def test_rates_and_stamps():
-    heard = [Message(stamp, "/a", "std_msgs/msg/Int32", "/b", encode(Int32())) for stamp in (1.0, 1.5, 2.0)]
-    assert stamps(heard) == [1.0, 1.5, 2.0]
-    assert rate(stamps(heard)) == 2.0
+    message = [Message(stamp, "/a", "std_msgs/msg/Int32", "/b", encode(Int32())) for stamp in (1.0, 1.5, 2.0)]
+    assert stamps(message) == [1.0, 1.5, 2.0]
+    assert rate(stamps(message)) == 2.0
     assert rate([1.0]) == rate([]) == rate([1.0, 1.0]) == 0.0
 
 
 def test_the_digest_depends_on_all_evidence_and_not_on_what_was_printed():
-    heard = Message(1.0, "/a", "std_msgs/msg/Int32", "/b", encode(Int32()))
-    plain = Recording(published=[heard])
-    assert plain.digest == Recording(published=[heard], prints=[(1.0, "x")], stderr="y").digest
+    sent = Message(1.0, "/a", "std_msgs/msg/Int32", "/b", encode(Int32()))
+    plain = Recording(published=[sent])
+    assert plain.digest == Recording(published=[sent], prints=[(1.0, "x")], stderr="y").digest
     others = [
-        Recording(published=[heard._replace(stamp=1.1)]), Recording(published=[heard._replace(topic="/c")]),
-        Recording(published=[heard._replace(sender="/d")]), Recording(published=[heard._replace(early=True)]),
-        Recording(published=[heard._replace(raw=b"\0\1\0\0\1")]),
-        Recording(published=[heard, heard]), Recording(published=[heard], ended=Ended("goal", 1.0, "")),
-        Recording(published=[heard], seed=1), Recording(published=[heard], seconds=1),
-        *(Recording(published=[heard], calls=[call]) for call in CALLS),
-        *(Recording(published=[heard], goals=[goal]) for goal in GOALS),
+        Recording(published=[sent._replace(stamp=1.1)]), Recording(published=[sent._replace(topic="/c")]),
+        Recording(published=[sent._replace(sender="/d")]), Recording(published=[sent._replace(early=True)]),
+        Recording(published=[sent._replace(raw=b"\0\1\0\0\1")]),
+        Recording(published=[sent, sent]), Recording(published=[sent], ended=Ended("goal", 1.0, "")),
+        Recording(published=[sent], seed=1), Recording(published=[sent], seconds=1),
+        *(Recording(published=[sent], calls=[call]) for call in CALLS),
+        *(Recording(published=[sent], goals=[goal]) for goal in GOALS),
     ]  # fmt: skip
     assert len({recording.digest for recording in [plain, *others]}) == len(others) + 1
     assert len(plain.digest) == 32 and int(plain.digest, 16)
@@ -135,7 +135,7 @@ def test_a_saved_recording_comes_back_equal(driven, tmp_path):
     assert again.world == driven.world and again.contacts == driven.contacts
     assert again.graph.publishers("/count") == driven.graph.publishers("/count")
     assert again.prints == [(0.0, "hello"), (0.0, "\n")]
-    assert {heard.early for heard in again.messages("/words")} == {True, False}
+    assert {received.early for received in again.messages("/words")} == {True, False}
     assert again.calls == driven.calls and again.calls[0].response.sum == 5
     assert again.goals == driven.goals and again.goals[0].feedback[0].message.sequence[2] == 1
 
@@ -262,7 +262,7 @@ def test_a_window_of_time_is_a_recording():
     assert [line.stamp for line in part.logs] == [2.0]
     assert [round(pose.stamp, 3) for pose in (part.path[0], part.path[-1])] == [1.5, 2.95]
     assert (part.begin, part.stamp, part.ended.stamp, part.graph) == (1.5, 3.0, 3.0, whole.graph)
-    assert {1.5 <= heard.stamp < 3.0 for heard in part.published} == {True}
+    assert {1.5 <= received.stamp < 3.0 for received in part.published} == {True}
     assert [line.stamp for line in part.during(0.0).logs] == [2.0]
     assert [line.stamp for line in whole.during(3.0).logs] == [3.0, 4.0]
 
@@ -296,7 +296,7 @@ def test_who_sent_logged_asked_and_served_is_known_by_program_and_not_by_name(tm
     )
     both = run(Ticker, mains.classic, companions=[Ticker, mains.classic], seconds=2, quiet=True)
     for made, told in ((theirs, {False}), (ours, {True}), (both, {False, True})):
-        assert {heard.from_course for heard in made.messages("/count")} == told
+        assert {received.from_course for received in made.messages("/count")} == told
         assert {end.from_course for end in made.graph.publishers("/count")} == told
         assert {line.from_course for line in made.logs if line.node == "ticker"} == told
     calls = ours.calls_of("/add")
@@ -313,7 +313,7 @@ def test_a_goal_knows_whose_client_and_server_it_has():
         students = [node for node in nodes if node not in companions]
         goals = run(*students, companions=companions, seconds=3, quiet=True).goals
         assert {(goal.requested_by_course, goal.served_by_course) for goal in goals} == {(asked, served)}
-        assert {heard.from_course for goal in goals for heard in goal.feedback} == {served}
+        assert {received.from_course for goal in goals for received in goal.feedback} == {served}
 
 
 def test_an_error_of_a_companion_is_a_failure_of_ours():

@@ -79,9 +79,9 @@ class Chatter(Node):
 class SleepsOverMessages(Node):
     def __init__(self):
         super().__init__("sleeper")
-        self.create_subscription(String, "chatter", self.hear, 1)
+        self.create_subscription(String, "chatter", self.on_message, 1)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         time.sleep(0.5)
 
 

@@ -25,16 +25,16 @@ class Talker(Node):
 
 
 class Listener(Node):
-    """Hears what is said on /chatter; nothing is wrong with it."""
+    """Receives what is said on /chatter; nothing is wrong with it."""
 
     topic, type, qos = "/chatter", String, 10
 
     def __init__(self):
         super().__init__("listener")
-        self.create_subscription(self.type, self.topic, self.hear, self.qos)
+        self.create_subscription(self.type, self.topic, self.on_message, self.qos)
 
-    def hear(self, msg):
-        self.get_logger().info("heard")
+    def on_message(self, msg):
+        self.get_logger().info("received")
 
 
 class MisspeltTopic(Talker):
@@ -145,7 +145,7 @@ class RateForPeriod(Node):
 
 
 class SilentEcho(Listener):
-    """Hears /chatter, and should answer on /echo."""
+    """Receives /chatter, and should answer on /echo."""
 
     def __init__(self):
         super().__init__()
@@ -211,7 +211,7 @@ class LoopsInACallback(Talker):
 
 
 class Echo(Node):
-    """Answers each message with another on the same topic: it hears itself."""
+    """Answers each message with another on the same topic: it receives itself."""
 
     def __init__(self):
         super().__init__("echo")

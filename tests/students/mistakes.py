@@ -183,23 +183,23 @@ class TimerCallbackWantsMessage(Talker):
 
 
 class Listener(Talker):
-    """Hears itself."""
+    """Receives itself."""
 
     def __init__(self):
         super().__init__()
-        self.create_subscription(String, "chatter", self.hear, 10)
+        self.create_subscription(String, "chatter", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         pass
 
 
 class SubscriptionCallbackWithoutMessage(Listener):
-    def hear(self):
+    def on_message(self):
         pass
 
 
 class ForwardsToMethodWithoutMessage(Listener):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.obey(msg)
 
     def obey(self):

@@ -38,7 +38,7 @@ class NeverSetsTheSum(Adder):
         return response
 
 
-class NobodyHears(Customer):
+class NobodyReceives(Customer):
     """Asks, and names nobody who gets the answer."""
 
     def __init__(self):

@@ -198,12 +198,12 @@ class SendsTheWholeAction(Runner):
         self.client.send_goal_async(Fibonacci)
 
 
-class HearsFeedbackWithoutFeedback(Runner):
+class ReceivesFeedbackWithoutFeedback(Runner):
     def tick(self):
         self.timer.cancel()
-        self.client.send_goal_async(Fibonacci.Goal(order=3), feedback_callback=self.hear)
+        self.client.send_goal_async(Fibonacci.Goal(order=3), feedback_callback=self.on_message)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.get_logger().info(f"{msg.sequence}")
 
     def execute(self, goal_handle):
@@ -284,9 +284,9 @@ class TellsFeedbackByKeyword(Runner):
 class LooksForRejected(Runner):
     def tick(self):
         self.timer.cancel()
-        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.hear)
+        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         return future.result().rejected
 
 

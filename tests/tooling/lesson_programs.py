@@ -203,14 +203,14 @@ def _run(thing: Any, arguments: list[str] | None) -> None:
 
 
 class Listener:
-    """Hears topics, in this process: of each message, one number."""
+    """Receives topics, in this process: of each message, one number."""
 
     def __init__(self, topics: dict[str, tuple[str, str]]) -> None:
         import rclpy
 
         rclpy.init()
         self._node = rclpy.create_node("lesson_listener")
-        self.heard: dict[str, list[float]] = {topic: [] for topic in topics}
+        self.received: dict[str, list[float]] = {topic: [] for topic in topics}
         for topic, (kind, field) in topics.items():
             package, _, name = kind.split("/")
             message_type = getattr(importlib.import_module(f"{package}.msg"), name)
@@ -218,24 +218,24 @@ class Listener:
             self._node.create_subscription(message_type, topic, keep, 10)  # reliable, as the robot's
 
     def _keep(self, topic: str, number_of: Callable[[Any], float], message: Any) -> None:
-        self.heard[topic].append(number_of(message))
+        self.received[topic].append(number_of(message))
 
     def listen_until(self, condition: str, errors: Path) -> None:
-        """Until a Python expression of what was `heard` and of the text of `errors` is true."""
+        """Until a Python expression of what was `received` and of the text of `errors` is true."""
         import rclpy
 
         def holds() -> bool:
             rclpy.spin_once(self._node, timeout_sec=0.05)
-            return eval(condition, {"heard": self.heard, "errors": errors.read_text(encoding="utf-8")})
+            return eval(condition, {"received": self.received, "errors": errors.read_text(encoding="utf-8")})
 
         until(holds, condition)
 
 
 def together(spec: dict[str, Any]) -> dict[str, Any]:
-    """Run programs side by side; how each of them ended, what they complained of, and what was heard.
+    """Run programs side by side; how each of them ended, what they complained of, and what they received.
 
-    They get their signal when all of them spin, every topic was heard and the condition `until` is true; what
-    is heard afterwards makes `at_end` true. alone: they are to end without a signal.
+    They get their signal when all spin, each topic had a message and the condition `until` is true; what is
+    received afterwards makes `at_end` true. alone: they are to end without a signal.
     """
     found, errors = lesson(spec["lesson"]), Path(spec["errors"])
     errors.touch()
@@ -243,11 +243,11 @@ def together(spec: dict[str, Any]) -> dict[str, Any]:
     listener = Listener(spec["listen"])
     for program in programs:
         program.wait_until_it_ends() if spec["alone"] else program.wait_until_it_spins()
-    listener.listen_until("all(heard.values())", errors)
+    listener.listen_until("all(received.values())", errors)
     listener.listen_until(spec["until"], errors)
     statuses = [program.end(signal.Signals[spec["signal"]]) for program in programs]
     listener.listen_until(spec["at_end"], errors)
-    return {"ended": statuses, "errors": errors.read_text(encoding="utf-8"), "heard": listener.heard}
+    return {"ended": statuses, "errors": errors.read_text(encoding="utf-8"), "received": listener.received}
 
 
 if __name__ == "__main__":

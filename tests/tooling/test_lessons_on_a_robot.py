@@ -12,8 +12,8 @@ from tests.tooling.lesson_programs import ROOT, definitions
 
 COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
 BLINKS = "']: on' in errors and ']: off' in errors"
-STOPPED = "heard['/cmd_vel'][-1] == 0.0"
-A_WHILE = "len(heard['/odom']) > 40"  # where there is nothing to wait for
+STOPPED = "received['/cmd_vel'][-1] == 0.0"
+A_WHILE = "len(received['/odom']) > 40"  # where there is nothing to wait for
 BOTH = pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
 
 
@@ -67,17 +67,17 @@ def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
 def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
     found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
     assert found["ended"] == [0], found["errors"]
-    assert found["heard"]["/cmd_vel"][-2:] == [0.3, 0.0]
+    assert found["received"]["/cmd_vel"][-2:] == [0.3, 0.0]
     assert found["errors"] == ""
 
 
 def test_the_server_of_lesson_4_drives(yard, tmp_path):
-    before = told(yard, tmp_path / "nothing", "04_actions", [])["heard"]["/odom"][-1]
-    until = f"'canceled after' in errors and max(heard['/odom']) > {before}"
+    before = told(yard, tmp_path / "nothing", "04_actions", [])["received"]["/odom"][-1]
+    until = f"'canceled after' in errors and max(received['/odom']) > {before}"
     found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
     assert float(re.search(r"canceled after ([\d.]+) m", found["errors"])[1]) > 0
-    assert max(found["heard"]["/odom"]) > before
+    assert max(found["received"]["/odom"]) > before
 
 
 @BOTH
@@ -88,13 +88,13 @@ def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize(("listener", "hears"), [("Listener", False), ("EasyListener", True)])
-def test_a_best_effort_publisher_is_heard_with_the_profile_for_sensors_only(yard, tmp_path, listener, hears):
-    until = f"({'I heard: Hello' if hears else 'incompatible QoS'!r} in errors) and {A_WHILE}"
+@pytest.mark.parametrize(("listener", "receives"), [("Listener", False), ("EasyListener", True)])
+def test_a_best_effort_publisher_is_received_with_the_sensor_profile_only(yard, tmp_path, listener, receives):
+    until = f"({'I heard: Hello' if receives else 'incompatible QoS'!r} in errors) and {A_WHILE}"
     found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
-    assert ("I heard: Hello" in found["errors"]) == hears
-    assert ("incompatible QoS" in found["errors"]) == (not hears)
+    assert ("I heard: Hello" in found["errors"]) == receives
+    assert ("incompatible QoS" in found["errors"]) == (not receives)
 
 
 @pytest.mark.soak
@@ -141,19 +141,19 @@ def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
 @pytest.mark.soak
 def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
     raw = {"Blind": ["-r", "/cmd_vel:=/cmd_vel_raw"]}
-    names, until = ["WholeGuard", "Blind"], "heard['/cmd_vel'].count(0.4) > 20"
+    names, until = ["WholeGuard", "Blind"], "received['/cmd_vel'].count(0.4) > 20"
     found = told(yard, tmp_path / "errors", "05_sensing", names, until=until, listen=COMMANDS, **raw)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
-    assert found["heard"]["/cmd_vel"][-1] == 0.4
+    assert found["received"]["/cmd_vel"][-1] == 0.4
 
 
 @pytest.mark.soak
 def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_path):
-    until = f"max(heard['/cmd_vel']) == 0.4 and 'The joystick is late: stop' in errors and {STOPPED}"
+    until = f"max(received['/cmd_vel']) == 0.4 and 'The joystick is late: stop' in errors and {STOPPED}"
     names = ["Driver", "Joystick"]
     found = told(yard, tmp_path / "errors", "07_silence", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0], found["errors"]
-    assert max(found["heard"]["/cmd_vel"]) == 0.4
+    assert max(found["received"]["/cmd_vel"]) == 0.4
 
 
 @pytest.mark.soak
@@ -161,12 +161,12 @@ def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path)
     with robot("--world", "joint", "--headless") as joint:
         listen = {"/joint_commands": ("std_msgs/msg/Float64", "data")}
         publisher = {"name": "JointPublisher", "subscribers": {"/joint_commands": 3}}  # one is the robot's
-        until = "len(heard['/joint_commands']) >= 7 and 'All positions are sent' in errors"
+        until = "len(received['/joint_commands']) >= 7 and 'All positions are sent' in errors"
         until += " and errors.count('Received joint position') >= 7"
         programs = [publisher, "JointSubscriber"]
         found = told(joint, tmp_path / "errors", "08_joints", programs, until=until, listen=listen)
     assert found["ended"] == [0, 0], found["errors"]
-    assert found["heard"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
+    assert found["received"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
     assert found["errors"].count("]: Received joint position: ") == 7
     assert found["errors"].count("]: All positions are sent") == 1
 
@@ -182,7 +182,7 @@ def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
 
 @pytest.mark.soak
 def test_the_follower_of_lesson_9_drives_after_its_carrot(yard, tmp_path):
-    names, until = ["Carrot", "Follower"], "max(heard['/cmd_vel']) > 0.2"
+    names, until = ["Carrot", "Follower"], "max(received['/cmd_vel']) > 0.2"
     found = told(yard, tmp_path / "errors", "09_frames", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0], found["errors"]
 
@@ -193,19 +193,19 @@ def test_the_pole_of_lesson_10_answers_within_its_limit_and_ends_quietly(tmp_pat
     """In real time the pole has fallen before anybody is there; what is sent then is at the motor's limit."""
     efforts = {"/cart_effort": ("std_msgs/msg/Float64", "data")}
     with robot("--world", "cart_pole", "--headless") as cart:
-        until = "len(heard['/cart_effort']) > 20 and max(map(abs, heard['/cart_effort'])) >= 10"
+        until = "len(received['/cart_effort']) > 20 and max(map(abs, received['/cart_effort'])) >= 10"
         found = told(cart, tmp_path / "errors", "10_control", ["pole_main"], number, until, listen=efforts)
     assert (found["ended"], found["errors"]) == ([0], "")
-    assert max(map(abs, found["heard"]["/cart_effort"])) == 10.0
+    assert max(map(abs, found["received"]["/cart_effort"])) == 10.0
 
 
 @BOTH
 @pytest.mark.soak
 def test_the_watchdog_of_lesson_12_sends_zeros_where_nobody_drives(yard, tmp_path, number):
-    until = "len(heard['/cmd_vel']) > 5"
+    until = "len(received['/cmd_vel']) > 5"
     found = told(yard, tmp_path / "errors", "12_safety", ["watchdog_main"], number, until, listen=COMMANDS)
     assert (found["ended"], found["errors"]) == ([0], "")
-    assert set(found["heard"]["/cmd_vel"]) == {0.0}
+    assert set(found["received"]["/cmd_vel"]) == {0.0}
 
 
 @pytest.mark.soak
@@ -213,6 +213,6 @@ def test_the_three_programs_of_lesson_13_set_out_for_an_order(tmp_path):
     listen = {"/state": ("std_msgs/msg/String", "data"), **COMMANDS}
     with robot("--world", "warehouse", "--headless") as warehouse:
         names = ["Perception", "Decision", "Control"]
-        until = "'fetch' in heard['/state'] and max(heard['/cmd_vel']) > 0.2"
+        until = "'fetch' in received['/state'] and max(received['/cmd_vel']) > 0.2"
         found = told(warehouse, tmp_path / "errors", "13_delivery", names, until=until, listen=listen)
     assert (found["ended"], found["errors"]) == ([0, 0, 0], "")

@@ -33,11 +33,11 @@ def gives_up(run: Recording, goal: Goal) -> None:
     due, cancels = (goal.at("accepted") or 0.0) + PATIENCE, _cancel_requests(goal)
     expected = f"a cancel request at {due:.3g} s, 8 s after the goal was accepted"
     if not cancels:
-        hint = ("self.timer = self.create_timer(8.0, self.give_up) in hear_response; there "
+        hint = ("self.timer = self.create_timer(8.0, self.give_up) in on_response; there "
                 "cancel_goal_async().")
         raise Missed(expected, "none", hint)
     if abs(cancels[0] - due) > 0.6:
-        hint = "The 8 s begin in hear_response: self.create_timer(8.0, self.give_up), without more brackets."
+        hint = "The 8 s begin in on_response: self.create_timer(8.0, self.give_up), without more brackets."
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
 
 
@@ -47,7 +47,7 @@ def leaves_it_alone(run: Recording, goal: Goal) -> None:
     cancels = _cancel_requests(goal)
     if goal.status == "succeeded" and cancels:
         expected = f"no cancel: the goal succeeded at {goal.ended:.3g} s"
-        hint = "The timer goes on after the goal has ended: in hear_result call self.timer.cancel()."
+        hint = "The timer goes on after the goal has ended: in on_result call self.timer.cancel()."
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
     if goal.status != "succeeded":
         hint = "It would have arrived in time: the 8 s begin when the goal is accepted."
@@ -69,7 +69,7 @@ def logs_how_it_ended(run: Recording, goal: Goal) -> None:
         ("an info line", "arrived", "INFO") if arrived else ("a warning", goal.result.error_msg, "WARN")
     )
     if not any(text.lower() in line.lower() for line in lines(afterwards, level)):
-        hint = ("In hear_result: future.result() has status and result. Compare status with "
+        hint = ("In on_result: future.result() has status and result. Compare status with "
                 "GoalStatus.STATUS_SUCCEEDED; the words are in result.error_msg.")
         raise Missed(f"{kind} with “{text}” after {since:.3g} s", quoted(lines(afterwards)), hint)
     if not arrived and any("arrived" in text.lower() for text in lines(afterwards)):

@@ -36,7 +36,7 @@ def logs_the_progress(run: Recording, goal: Goal) -> None:
         newest, soon = row.message.sequence[-1], Window.after(row.stamp, SOON)
         texts = lines(run.during(soon.begin, soon.end), "INFO")
         if not any(newest in numbers_in(text) for text in texts):
-            hint = ("send_goal_async(goal, feedback_callback=self.hear_feedback); there the numbers are in "
+            hint = ("send_goal_async(goal, feedback_callback=self.on_feedback); there the numbers are in "
                     "msg.feedback.sequence, and [-1] is the newest.")
             raise Missed(f"an info line with {newest} at {row.stamp:.3g} s", quoted(texts), hint)
 
@@ -49,11 +49,11 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
     texts = lines(run.during(goal.ended), "INFO")
     wanted = list(goal.result.sequence)
     if not any("result" in text.lower() and _holds(text, wanted) for text in texts):
-        hint = ("In hear_result the numbers are in future.result().result.sequence, and list(...) of them "
+        hint = ("In on_result the numbers are in future.result().result.sequence, and list(...) of them "
                 "prints well.")
         if goal.received is None:
-            hint = ("The result wasn't requested. In ask: future.add_done_callback(self.hear_response); "
-                    "there: goal_handle.get_result_async().add_done_callback(self.hear_result).")
+            hint = ("The result wasn't requested. In ask: future.add_done_callback(self.on_response); "
+                    "there: goal_handle.get_result_async().add_done_callback(self.on_result).")
         raise Missed(f"an info line with “result” and {wanted} after {goal.ended:.3g} s", quoted(texts), hint)
 
 
@@ -63,7 +63,7 @@ def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
     since = run.during(goal.requested)
     rejected = [text for text in lines(since, "WARN") if "rejected" in text.lower()]
     if goal.status == "rejected" and not rejected:
-        hint = "In hear_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."
+        hint = "In on_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."
         raise Missed(f"a warning with “rejected” after {goal.requested:.3g} s", quoted(lines(since)), hint)
     if goal.status != "rejected" and rejected:
         hint = "Warn only if goal_handle.accepted is False: if not goal_handle.accepted: ..."

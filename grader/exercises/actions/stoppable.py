@@ -29,7 +29,7 @@ def accepts_the_cancel(run: Recording, goals: list[Goal]) -> tuple[Goal, Seconds
         saw = f"{state(goal) if goal.server else 'no decision on it'}, before anybody could cancel it"
         raise Missed(f"{goal_text(goal)} executed, with 0.5 s for each number", saw, guess=guess)
     if accepted is None or accepted > requested + 0.1:
-        saw = "it never agreed" if accepted is None else f"heard at {accepted:.3g} s"
+        saw = "it never agreed" if accepted is None else f"accepted at {accepted:.3g} s"
         raise Missed(f"the cancel request of {requested:.3g} s accepted at once", f"{saw}; {state(goal)}")
     return goal, requested
 

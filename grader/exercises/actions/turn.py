@@ -26,7 +26,7 @@ turn = Exercise("turn", "A robot that turns", world="yard", seconds=40, companio
 def offers_to_turn(run: Recording) -> None:
     """The node offers the action /spin of type Spin, and subscribes to /odom."""
     offered(run, SPIN, "nav2_msgs/action/Spin")
-    with hinting('self.create_subscription(Odometry, "/odom", self.hear_odometry, 10), in __init__.'):
+    with hinting('self.create_subscription(Odometry, "/odom", self.on_odometry, 10), in __init__.'):
         subscribes(run, "/odom", "nav_msgs/msg/Odometry")
 
 
@@ -41,7 +41,7 @@ def offers_to_turn(run: Recording) -> None:
         lambda run, goal, turned: turned * goal.request.target_yaw < 0,
     "The robot stands, and the goal never ends: send a Twist in the loop, each time.":
         lambda run, goal, turned: not goal.over and abs(turned) < 0.05,
-    "It turned on and on, for self.turned stays 0: does hear_odometry add to it? And does execute "
+    "It turned on and on, for self.turned stays 0: does on_odometry add to it? And does execute "
     "await self.pause(...)? While it sleeps, the node is deaf to /odom.":
         lambda run, goal, turned: not goal.over and any(abs(a) < 0.01 for a in _angles(goal)[-1:]),
     "It turned on and on, for self.turned is the last step only. Add up: self.turned += ...":
@@ -51,7 +51,7 @@ def offers_to_turn(run: Recording) -> None:
     "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly.":
         lambda run, goal, turned: abs(turned) - abs(goal.request.target_yaw) > 0.25,
     "self.turned adds up the small steps between messages of /odom, from 0 with each goal. After each "
-    "step hear_odometry keeps the yaw: self.yaw = yaw.": otherwise,
+    "step on_odometry keeps the yaw: self.yaw = yaw.": otherwise,
 })
 def turns_by_the_angle(run: Recording) -> None:
     """Goals to both sides, also by more than half a turn, succeed: the robot has turned by target_yaw."""

@@ -14,7 +14,7 @@ POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON, AT_ONCE = 0.03, 1.2, 0.2  # m, s, s
 OFTEN, ELSEWHERE = 0.4, 0.3  # of the points: published more than once; where it was at another moment
 LATER = ("The transform comes half a second after the detection: keep the detection, and look again later. "
-         "A callback that waits for it in a loop keeps its own node from hearing. Each is known by its "
+         "A callback that waits for it in a loop keeps its own node from receiving. Each is known by its "
          "stamp.")
 
 delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLocalization], seeds=(1, 2))

@@ -44,7 +44,7 @@ class Diagnosed(NamedTuple):
 @doctor.check(2)
 def answers_complaints(run: Recording) -> None:
     """The node subscribes to /complaint, and publishes String messages on /diagnosis."""
-    with hinting("The callback of /complaint is `hear`: it publishes what `examine` returns."):
+    with hinting("The callback of /complaint is `on_message`: it publishes what `examine` returns."):
         subscribes(run, "/complaint", STRING)
         publishes(run, "/diagnosis", STRING)
 
@@ -54,7 +54,7 @@ def answers_complaints(run: Recording) -> None:
         lambda run, one: len(one.words) > 1,
     "The words are {faults}.":
         lambda run, one: not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)},
-    "Publish the topic of the complaint, a colon and the word; `hear` does it if examine returns.":
+    "Publish the topic of the complaint, a colon and the word; `on_message` does it if examine returns.":
         lambda run, one: not one.words,
     "Settings that differ may fit: a sensor may offer more than the display asks for. "
     "Here it is this: {why}": lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]},
@@ -82,7 +82,7 @@ def fixes_the_faults(run: Recording) -> None:
         done = f"{', '.join(first.changes)} was set"
         if not first.changes:
             done = "nothing was set at the display, or it was refused"
-        expected = f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”"
+        expected = f"the display of {first.case.topic} receiving again: the fault is “{first.case.fault}”"
         saw = f"it receives {'again' if first.receives else 'nothing'}, and {done}; "
         saw += f"{right} of {len(systems)} were fixed so"
         hint = CHANGES_ALL if first.idle else _why_broken(first)
@@ -106,7 +106,7 @@ def _share(right: int, of: int) -> float:
 def _systems(run: Recording) -> list[Diagnosed]:
     """All systems with a complaint."""
     known = {case.topic: case for case in cases(run.seed)}
-    displayed = from_course(run.during(run.ended.stamp - PAUSE), "/heard", at_least=0)
+    displayed = from_course(run.during(run.ended.stamp - PAUSE), "/received", at_least=0)
     texts = {row.message.data for row in displayed}
     changes = [row.message.data.split() for row in from_course(run, "/changes", at_least=0)]
     found = []

@@ -35,7 +35,7 @@ def subscribes_to_all_three(run: Recording) -> None:
 
 @chatters.check(8, after=subscribes_to_all_three, hints={
     "A callback with two parameters gets such details as the second. "
-    "Give it the topic: partial(self.hear, topic=topic).": lambda run, row: _has_details(run, row),
+    "Give it the topic: partial(self.on_message, topic=topic).": lambda run, row: _has_details(run, row),
     "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
     "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial.":
         lambda run, row: row.topic != "/chatter2" and _is_logged(run, row, "/chatter2"),
@@ -66,8 +66,8 @@ def uses_one_callback(run: Recording) -> None:
     nodes = {end.node for topic in CHATTERS for end in run.graph.subscriptions(topic)}
     names = {ran.callback for ran in run.callbacks if ran.kind == "subscription" and ran.node in nodes}
     if len(names) > 1:
-        hint = ("Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the "
-                "topic with a lambda or functools.partial.")
+        hint = ("Write one method with a second parameter, `def on_message(self, msg, topic):`, and give it "
+                "the topic with a lambda or functools.partial.")
         raise Missed("one callback for the three topics", ", ".join(sorted(names)), hint)
 
 

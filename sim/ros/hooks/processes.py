@@ -25,7 +25,7 @@ def make_context(original: Callable) -> Callable:
             return original(arguments, domain_id)
         if domain_id not in (0, _rclpy.RCL_DEFAULT_DOMAIN_ID):
             raise ValueError(
-                "All programs of a run are in one ROS domain, and hear each other: "
+                "All programs of a run share one ROS domain and receive each other's messages: "
                 f"leave out domain_id={domain_id}."
             )
         return SharedContext(run.current.process, arguments)

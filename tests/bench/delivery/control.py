@@ -21,7 +21,7 @@ class Control(Node):
     def __init__(self):
         super().__init__("control")
         self.solid = self.pose = self.goal = None
-        self.people, self.obstacles, self.heard, self.way = [], [], -math.inf, []
+        self.people, self.obstacles, self.received, self.way = [], [], -math.inf, []
         self.placed = -math.inf
         self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
         self.create_subscription(PoseArray, "/people", self.on_people, 10)
@@ -41,7 +41,7 @@ class Control(Node):
 
     def on_people(self, people):
         self.people = [(pose.position.x, pose.position.y) for pose in people.poses]
-        self.heard = Time.from_msg(people.header.stamp).nanoseconds
+        self.received = Time.from_msg(people.header.stamp).nanoseconds
 
     def on_obstacles(self, obstacles):
         self.obstacles = [(pose.position.x, pose.position.y) for pose in obstacles.poses]
@@ -64,7 +64,7 @@ class Control(Node):
     def on_pose(self, message):
         self.placed = self.get_clock().now().nanoseconds
         x, y = message.pose.position.x, message.pose.position.y
-        late = Time.from_msg(message.header.stamp).nanoseconds - self.heard > 0.5e9
+        late = Time.from_msg(message.header.stamp).nanoseconds - self.received > 0.5e9
         person = any(math.dist((x, y), place) < self.away for place in self.people)
         command = Twist()
         if not (late or person or self.goal is None or self.solid is None):

@@ -243,8 +243,8 @@ def conversation(*lines):
     return run
 
 
-def said(heard):
-    return heard.message.data
+def said(received):
+    return received.message.data
 
 
 def test_answers_is_content_with_a_line_after_each_message():
@@ -295,8 +295,8 @@ def test_answers_takes_a_line_after_just_that_time_for_one_of_the_next_message()
 
 def test_answers_asks_only_for_the_messages_that_are_picked():
     one = conversation((1.0, "INFO", "stand!"))
-    answers(one, "/command", said, where=lambda heard: said(heard) == "stand")
-    miss = missed(answers, one, "/command", said, where=lambda heard: said(heard) == "dance")
+    answers(one, "/command", said, where=lambda received: said(received) == "stand")
+    miss = missed(answers, one, "/command", said, where=lambda received: said(received) == "dance")
     assert miss.expected == "messages on /command that want a log line"
     assert miss.saw == "none among the 2 on /command"
 
@@ -313,7 +313,7 @@ def warned(*lines, levels=(30.0, 10.0, 40.0)):
     return run
 
 
-LOW = {"level": "WARN", "where": lambda heard: said(heard) < 20.0, "what": "levels below 20 %", "only": True}
+LOW = {"level": "WARN", "where": lambda received: said(received) < 20.0, "what": "levels below 20 %", "only": True}
 
 
 def test_answers_may_be_the_only_ones():

@@ -171,7 +171,7 @@ def test_a_box_that_was_touched_is_a_shelf_where_one_stands_within_half_a_centim
     assert shift(recorded(world=world, contacts=[touch(1.0, "box", x, y)])).touched == {name: 1}
 
 
-def test_what_a_program_hears_and_sends_is_in_the_order_of_the_alphabet_without_what_every_node_has():
+def test_what_a_program_receives_and_sends_is_in_the_order_of_the_alphabet_without_what_every_node_has():
     run_ = recorded(order(1, waiting=2.0))
     ends = [
         Endpoint(kind, "/control", topic, "std_msgs/msg/Empty", {})

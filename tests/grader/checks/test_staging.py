@@ -48,8 +48,8 @@ def staged():
 
 def test_messages_on_a_topic_of_ours_are_no_evidence(staged):
     kept = evidence_of(staged)
-    assert {heard.from_course for heard in staged.messages("/odom")} == {False, True}
-    assert {heard.from_course for heard in kept.messages("/odom")} == {True}
+    assert {received.from_course for received in staged.messages("/odom")} == {False, True}
+    assert {received.from_course for received in kept.messages("/odom")} == {True}
     assert [end.from_course for end in kept.graph.publishers("/odom")] == [True]
     assert kept.messages("/own") == staged.messages("/own") != []
 

@@ -26,8 +26,8 @@ def missed(function, *arguments, **options):
 
 
 def test_publishes_gives_the_messages():
-    heard = publishes(run(misfits.Talker, seconds=5, quiet=True), "/chatter", "std_msgs/msg/String")
-    assert [item.stamp for item in heard] == [1.0, 2.0, 3.0, 4.0, 5.0]
+    received = publishes(run(misfits.Talker, seconds=5, quiet=True), "/chatter", "std_msgs/msg/String")
+    assert [item.stamp for item in received] == [1.0, 2.0, 3.0, 4.0, 5.0]
 
 
 def test_publishes_misses_a_topic_nobody_publishes():
@@ -59,7 +59,7 @@ def test_publishes_misses_another_type():
     )
 
 
-def test_a_rate_misses_messages_that_nobody_can_hear():
+def test_a_rate_misses_messages_that_nobody_can_receive():
     recorded = run(misfits.NewPublisherEachTime, seconds=5, quiet=True)
     assert len(publishes(recorded, "/chatter")) == 5
     miss = missed(rate, recorded, "/chatter", 1.0)

@@ -124,7 +124,7 @@ SERVICE_CAUSES = {
     "of the response. Set them before you return it, as in `response.sum = ...`.",
     (
         services.SlowAdder,
-        misfits.NobodyHears,
+        misfits.NobodyReceives,
     ): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
-    "took it: `call_async(request).add_done_callback(self.hear)` names the method that receives it.",
+    "took it: `call_async(request).add_done_callback(self.on_response)` names the method that receives it.",
 }

@@ -27,7 +27,7 @@ SENTENCES = {
     (
         flaws.Chatter,
         flaws.SleepsOverMessages,
-    ): "/sleeper took 9 of 50 messages: SleepsOverMessages.hear held it for "
+    ): "/sleeper took 9 of 50 messages: SleepsOverMessages.on_message held it for "
     "up to 0.5 s each time, and the next ones came meanwhile. A callback should store the message, and return.",
     (
         flaws.TalksWithoutAPause,
@@ -98,7 +98,7 @@ def test_a_robot_without_a_driver_has_no_flaw():
 
 @pytest.mark.parametrize(
     "students",
-    [(misfits.main_that_spins_three_seconds,), (services.SlowAdder, service_misfits.NobodyHears)],
+    [(misfits.main_that_spins_three_seconds,), (services.SlowAdder, service_misfits.NobodyReceives)],
     ids=names,
 )
 def test_what_may_also_be_right_explains_a_missed_check_and_is_no_flaw(students):

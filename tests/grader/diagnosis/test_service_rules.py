@@ -66,10 +66,10 @@ ADVICE = {
     "`goal_handle.request.order`.",
     mistakes.SendsANumber: GOAL,
     mistakes.SendsTheWholeAction: GOAL,
-    mistakes.HearsFeedbackWithoutFeedback: "The message of a feedback callback has the feedback inside: "
+    mistakes.ReceivesFeedbackWithoutFeedback: "The message of a feedback callback has the feedback inside: "
     "`msg.feedback.sequence`.",
     mistakes.ReadsTheResultOfTheHandle: "The first answer only says whether the goal is accepted. The result comes "
-    "later: `goal_handle.get_result_async().add_done_callback(self.hear_result)`.",
+    "later: `goal_handle.get_result_async().add_done_callback(self.on_result)`.",
     mistakes.ReadsTheSequenceOfTheAnswer: "What comes in the end has two parts, a status and the result: "
     "`future.result().result.sequence`.",
     mistakes.ReadsTheStatusOfTheResult: "The status is beside the result, not in it: `future.result().status`.",

@@ -20,7 +20,7 @@ from tests.students.parameter_mistakes import Wheel
 NO = "An exception doesn't refuse anything: it ends the node, and the client waits for an answer that never comes. Say no in the "
 TOO_EARLY = (
     "The answer isn't there yet: {} returns at once, with a future that is still empty. "
-    "`future.add_done_callback(self.hear)`, without brackets after the method, lets ROS call it once the answer has "
+    "`future.add_done_callback(self.on_response)`, without brackets after the method, lets ROS call it once the answer has "
     "come; there future.result() is the answer."
 )
 GENERAL = "Read the line it names, and think what its values are at that moment; `print` shows them."
@@ -107,9 +107,9 @@ class ReadsNothingWhileAskingElsewhere(Ticking):
 class CallsTheDoneCallback(Ticking):
     def tick(self):
         future = self.client.call_async(self.request())
-        future.add_done_callback(self.hear(future))
+        future.add_done_callback(self.on_response(future))
 
-    def hear(self, future):
+    def on_response(self, future):
         self.say(future.result().sum)
 
 
@@ -126,9 +126,9 @@ class LooksIntoTheGoalAtOnce(Node):
 
 class TakesTheResultOfAGoalAtOnce(LooksIntoTheGoalAtOnce):
     def tick(self):
-        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.hear)
+        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         future.result().get_result_async().result().result  # noqa: B018
 
 
@@ -142,12 +142,12 @@ class SendsAWrongValue(Wheel):
         Float64(data=str(self.get_parameter("radius").value))
 
 
-class HearsWithoutTheFuture(Ticking):
+class ReceivesWithoutTheFuture(Ticking):
     def tick(self):
-        self.client.call_async(self.request()).add_done_callback(self.hear)
+        self.client.call_async(self.request()).add_done_callback(self.on_response)
 
-    def hear(self):
-        self.say("heard")
+    def on_message(self):
+        self.say("received")
 
 
 class CallsItsCallback(Ticking):
@@ -189,7 +189,7 @@ class LooksBeforeTheFirstMessage(Node):
         self.create_timer(0.5, lambda: min(self.scan.ranges))
 
 
-class Hears(Ticking):
+class Receives(Ticking):
     """Nothing is wrong with it."""
 
     def tick(self):
@@ -202,7 +202,7 @@ def record(*nodes):
 
 ADVICE = {
     (RaisesForNo,): NO + "answer: response.success = False, response.message = the reason, return response.",
-    (RaisesForNoSum, Hears): NO + "answer: set its fields, and return the response.",
+    (RaisesForNoSum, Receives): NO + "answer: set its fields, and return the response.",
     (SlipsInAService,): GENERAL,
     (RaisesInATimer,): GENERAL,
     (
@@ -241,8 +241,8 @@ ADVICE = {
     ): "What stands before `.sum` is None: it was never set, or comes from a function without `return`.",
     (
         SlowAdder,
-        HearsWithoutTheFuture,
-    ): "A done callback is called with the future: write `def hear(self, future):`.",
+        ReceivesWithoutTheFuture,
+    ): "A done callback is called with the future: write `def on_response(self, future):`.",
 }
 
 
@@ -258,7 +258,7 @@ def test_an_error_in_a_check_of_parameters_names_the_students_own_method():
 
 
 @pytest.mark.parametrize(
-    "nodes", [(SlowAdder, Hears), (Adder, misfits.NobodyHears)], ids=["taken", "at once"]
+    "nodes", [(SlowAdder, Receives), (Adder, misfits.NobodyReceives)], ids=["taken", "at once"]
 )
 def test_an_answer_that_may_have_been_taken_is_not(nodes):
     assert explain(record(*nodes)) == ""

@@ -9,7 +9,7 @@ SETUP = "from sim import run"
 NODE = "class Talker:\n    pass"
 SEE = "recording = run(Talker, seconds=3)\ntell(recording)"
 PLOT = "plot_path(recording)"
-LOOP = "for heard in recording.messages():\n    print(heard.stamp)"
+LOOP = "for received in recording.messages():\n    print(received.stamp)"
 
 
 def left_out(*sources: str) -> list[str]:
@@ -41,7 +41,7 @@ def test_a_run_cell_is_found_to_be_needed_by_another_that_is_run():
 
 
 def test_names_of_a_function_of_its_own_are_others():
-    assert left_out(SEE, LOOP, "# mine\ndef f(recording):\n    heard = 1\n    return recording, heard") == [
+    assert left_out(SEE, LOOP, "# mine\ndef f(recording):\n    b = 1\n    return recording, b") == [
         SEE,
         LOOP,
     ]

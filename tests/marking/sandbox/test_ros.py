@@ -43,11 +43,11 @@ def test_nodes_of_two_processes_never_meet_whatever_they_set(warm, make_commande
     listen = TALKER + (
         "import os\n"
         "os.environ |= {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'DEFAULT'}\n"
-        "rclpy.init(); node = Talker(); heard = []\n"
-        "node.create_subscription(String, '/chatter', heard.append, 10)\n"
+        "rclpy.init(); node = Talker(); received = []\n"
+        "node.create_subscription(String, '/chatter', received.append, 10)\n"
     )
     look = (
-        "while len(heard) < 10: rclpy.spin_once(node, timeout_sec=0.1)\n"
+        "while len(received) < 10: rclpy.spin_once(node, timeout_sec=0.1)\n"
         "answer = node.count_publishers('/chatter')"
     )
     both = [make_commanded(warm), make_commanded(warm)]

@@ -1,4 +1,4 @@
-"""Every world, named and generated, with nodes that drive, push, command and hear whatever there is."""
+"""Every world, named and generated, with nodes that drive, push, command and receive whatever there is."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ SENSORS = {"odom": Odometry, "scan": LaserScan, "joint_states": JointState, "bum
 
 
 class Listener(Node):
-    """Hears topics, and logs once a second a number that every message changes."""
+    """Receives topics, and logs once a second a number that every message changes."""
 
     def __init__(self, name, topics):
         super().__init__(name)
         self.received = 0
         for topic, kind in topics.items():
-            self.create_subscription(kind, topic, self.hear, 10, raw=True)
+            self.create_subscription(kind, topic, self.on_message, 10, raw=True)
         self.create_timer(1.0, self.tell)
 
-    def hear(self, raw):
+    def on_message(self, raw):
         self.received = zlib.crc32(raw, self.received)
 
     def tell(self):

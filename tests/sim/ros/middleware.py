@@ -123,18 +123,18 @@ def listen(case: str) -> None:
         incompatible_qos=reported("is offered another"),
     )
 
-    def hear(msg: String) -> None:
+    def on_message(msg: String) -> None:
         count[0] += 1
         if case.startswith(("lifespan", "durability")):
-            say("hears", msg.data)
+            say("receives", msg.data)
         if (case.startswith("lifespan") and not joins_late) or (case.startswith("history") and count[0] == 1):
             time.sleep(SLEEPS)
 
     if joins_late:
         spin(node, JOINS)
-    node.create_subscription(String, "facts", hear, CASES[case][0], event_callbacks=events)
+    node.create_subscription(String, "facts", on_message, CASES[case][0], event_callbacks=events)
     spin(node, CASES[case][2][-1][0] + 0.6)
-    say("has heard", "some" if count[0] > 10 and case.endswith("stopped") else count[0])
+    say("has received", "some" if count[0] > 10 and case.endswith("stopped") else count[0])
 
 
 def speak(case: str) -> None:

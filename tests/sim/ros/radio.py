@@ -34,7 +34,7 @@ def end(number: int, reliability: str) -> None:
     node, begin, logged = Node(f"end_{number}"), time.time() + QUIET, []
     profile = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy[reliability.upper()])
 
-    def hear(msg: Float64MultiArray) -> None:
+    def on_message(msg: Float64MultiArray) -> None:
         logged.append(f"{msg.data[0]:.0f}:{time.time() - msg.data[1]:.2f}")
 
     events = SubscriptionEventCallbacks(
@@ -43,7 +43,7 @@ def end(number: int, reliability: str) -> None:
     if number == 1:
         publisher, count = node.create_publisher(Float64MultiArray, "facts", profile), 0
     else:
-        node.create_subscription(Float64MultiArray, "facts", hear, profile, event_callbacks=events)
+        node.create_subscription(Float64MultiArray, "facts", on_message, profile, event_callbacks=events)
     while time.time() < begin + SPOKEN + 4:
         rclpy.spin_once(node, timeout_sec=0.002)
         if number == 1 and begin + count * PERIOD < time.time() < begin + SPOKEN:

@@ -21,14 +21,14 @@ def test_a_goal_gives_feedback_each_second_and_succeeds(server):
     assert (recording.errors, recording.stderr) == ([], "")
 
 
-def test_a_server_with_threads_hears_a_cancel():
+def test_a_server_with_threads_receives_a_cancel():
     assert dialogue(actions.parallel_server, actions.Impatient) == [
         (0.0, "accepted True"), FEEDBACK[0], (1.5, "canceling 1"), FEEDBACK[1],
         (2.0, "CANCELED [0, 1, 1, 2]"),
     ]  # fmt: skip
 
 
-def test_a_server_with_one_thread_hears_a_cancel_too_late():
+def test_a_server_with_one_thread_receives_a_cancel_too_late():
     assert dialogue(actions.Server, actions.Impatient) == [*SUCCESS, (3.0, "canceling 0")]
 
 

@@ -61,7 +61,7 @@ def test_it_speaks_a_hundred_times_a_second_and_is_tracked_at_twenty():
     assert recording.tracks["pole"][-1] == (2.0, x, 0.0, pytest.approx(turned))
 
 
-def test_what_is_heard_is_the_simulation_under_the_same_pushes():
+def test_what_is_received_is_the_simulation_under_the_same_pushes():
     """One push at 0.1 s, which lasts for the timeout of 0.2 s."""
     recording = run(students.PushesOnce, world="cart_pole", seconds=1, seed=3, quiet=True)
     scene = simulate(World.load("cart_pole"), 3)
@@ -80,7 +80,7 @@ def test_an_effort_that_is_no_number_is_told_once_a_second_and_ignored():
     assert received(recording) == received(run(world="cart_pole", seconds=2.5, quiet=True))
 
 
-def test_ten_thousand_efforts_a_second_are_all_heard_and_told_once_a_second():
+def test_ten_thousand_efforts_a_second_are_all_received_and_told_once_a_second():
     recording = run(students.Flood, world="cart_pole", seconds=1, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/cart_effort")) == 10_010

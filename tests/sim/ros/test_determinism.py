@@ -73,21 +73,21 @@ def test_the_digest_sees_every_kind_of_evidence():
 
 
 class RawListener(Node):
-    """Keeps the bytes of what it hears; those of a Bool end in the middle of a word."""
+    """Keeps the bytes of what it receives; those of a Bool end in the middle of a word."""
 
     received = []  # noqa: RUF012
 
     def __init__(self):
         super().__init__("raw_listener")
         for kind, topic in ((Bool, "/bumper"), (LaserScan, "/scan")):
-            hear = functools.partial(self.hear, topic)
-            self.create_subscription(kind, topic, hear, 10, raw=True)
+            receive = functools.partial(self.on_message, topic)
+            self.create_subscription(kind, topic, receive, 10, raw=True)
 
-    def hear(self, topic, raw):
+    def on_message(self, topic, raw):
         self.received.append((topic, raw))
 
 
-def test_a_raw_subscription_hears_the_bytes_that_were_sent_and_nothing_behind_them():
+def test_a_raw_subscription_receives_the_bytes_that_were_sent_and_nothing_behind_them():
     RawListener.received.clear()
     recording = run(RawListener, world="yard", seconds=1, quiet=True)
     for topic in ("/bumper", "/scan"):
@@ -96,7 +96,7 @@ def test_a_raw_subscription_hears_the_bytes_that_were_sent_and_nothing_behind_th
 
 
 @pytest.mark.soak
-def test_two_processes_at_once_dont_hear_each_other(here):
+def test_two_processes_at_once_dont_reach_each_other(here):
     """The same topics, at the same time; with subscribers there would be more messages and callbacks."""
     command = [sys.executable, "-m", "tests.sim.ros.programs"]
     pair = [

@@ -13,7 +13,7 @@ INIT = "rclpy.init() has not been called. msg:cannot create node"
 FIRST_ERROR = {
     errors.InTimer: (1.0, "/timer", "InTimer.tick", *DIVISION),
     errors.in_parallel_callback: (1.0, "/timer", "InTimer.tick", *DIVISION),
-    errors.InSubscription: (1.5, "/listener", "InSubscription.hear", "KeyError", "'speed'"),
+    errors.InSubscription: (1.5, "/listener", "InSubscription.on_message", "KeyError", "'speed'"),
     errors.InCoroutine: (1.0, "/coroutine", "InCoroutine.tick", "LookupError", "not awaited"),
     errors.InInit: (0.0, "/broken", "InInit", "AttributeError", "'InInit' object has no attribute 'missing'"),
     errors.InService: (
@@ -42,7 +42,7 @@ FIRST_ERROR = {
     ),
     errors.another_domain: (
         0.0, "/another_domain", "another_domain", "ValueError",
-        "All programs of a run are in one ROS domain, and hear each other: leave out domain_id=5.",
+        "All programs of a run are in one ROS domain, and receive each other: leave out domain_id=5.",
     ),
     errors.without_init: (0.0, "/forgot", "without_init", "NotInitializedException", INIT),
     errors.init_after_node: (0.0, "/early", "init_after_node", "NotInitializedException", INIT),

@@ -11,9 +11,9 @@ def lines(recording):
 
 def test_an_executor_that_runs_each_callback_itself_spins_as_rclpys_do():
     recording = run(executors.one_by_one, seconds=1.2, quiet=True)
-    assert logged(recording) == [(0.5, "tick"), (0.5, "heard"), (1.0, "tick"), (1.0, "heard")]
+    assert logged(recording) == [(0.5, "tick"), (0.5, "received"), (1.0, "tick"), (1.0, "received")]
     assert [(ran.callback, ran.kind) for ran in recording.callbacks] == [
-        ("Ticking.tick", "timer"), ("Ticking.hear", "subscription"),
+        ("Ticking.tick", "timer"), ("Ticking.on_message", "subscription"),
     ] * 2  # fmt: skip
 
 

@@ -39,7 +39,7 @@ def test_a_goal_has_both_ends_its_stamps_and_all_messages(server, client):
     assert len(goal.id) == 32 and int(goal.id, 16)
 
 
-def test_feedback_is_heard_like_a_message():
+def test_feedback_is_received_like_a_message():
     feedback = only(actions.Server, actions.Client).feedback
     assert [(h.stamp, list(h.message.sequence)) for h in feedback] == [
         (1.0, [0, 1, 1]), (2.0, [0, 1, 1, 2]), (3.0, [0, 1, 1, 2, 3]),
@@ -65,7 +65,7 @@ def test_a_goal_before_two_programs_have_found_each_other_is_lost(programs):
     ]  # fmt: skip
 
 
-def test_a_cancel_that_is_heard_goes_through_canceling():
+def test_a_cancel_that_is_received_goes_through_canceling():
     goal = only(actions.parallel_server, actions.Impatient)
     assert goal.events == [*STARTED, ASKED_TO_CANCEL, (1.5, "canceling"), (2.0, "canceled")]
     assert list(goal.result.sequence) == [0, 1, 1, 2]

@@ -80,7 +80,7 @@ def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored():
     assert (recording.errors, received(recording)[-1]) == ([], (2.5, 0.0, 0.0))
 
 
-def test_ten_thousand_commands_a_second_are_all_heard_and_told_once_a_second():
+def test_ten_thousand_commands_a_second_are_all_received_and_told_once_a_second():
     recording = run(students.Flood, world="joint", seconds=2, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/joint_commands")) == 20_001

@@ -155,7 +155,7 @@ def users_node():
     rclpy.shutdown()
 
 
-def heard_by(node):
+def received_by(node):
     """Publishes on the user's own node, in real time, and returns what its own subscription got."""
     got = []
     subscription = node.create_subscription(Int32, "mine", lambda msg: got.append(msg.data), 10)
@@ -169,16 +169,16 @@ def heard_by(node):
 
 def test_the_users_own_node_works_before_and_after_runs(users_node):
     context, users = rclpy.utilities.get_default_context(), rclpy.context.g_logging_ref_count
-    assert heard_by(users_node) == [5]
+    assert received_by(users_node) == [5]
     for program in (mains.classic, mains.shuts_itself_down, mains.init_again, errors.InTimer):
         run(program, seconds=2, quiet=True)
         assert rclpy.utilities.get_default_context() is context
         assert context.ok() and rclpy.ok()
-        assert heard_by(users_node) == [5]
+        assert received_by(users_node) == [5]
     assert rclpy.context.g_logging_ref_count == users
 
 
-def test_the_users_node_and_a_run_dont_hear_each_other(users_node):
+def test_the_users_node_and_a_run_dont_reach_each_other(users_node):
     got = []
     users_node.create_subscription(Int32, "count", got.append, 10)
     users_node.create_publisher(Int32, "count", 10)

@@ -66,9 +66,9 @@ class Single(Node):
     def __init__(self):
         super().__init__("single")
         self.publisher = self.create_publisher(self.type, "/joint_commands", 10)
-        self.create_subscription(self.type, "/wanted", self.hear, 10)
+        self.create_subscription(self.type, "/wanted", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.publisher.publish(self.type(data=msg.data))
 
 

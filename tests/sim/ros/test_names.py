@@ -131,7 +131,7 @@ def test_a_lifecycle_node_publishes_while_it_is_active():
 
 def test_entities_may_come_and_go():
     recording = run(names.Restless, seconds=4, quiet=True)
-    assert logged(recording) == [(1.4, "heard"), (1.8, "heard"), (3.4, "heard"), (3.8, "heard")]
+    assert logged(recording) == [(1.4, "received"), (1.8, "received"), (3.4, "received"), (3.8, "received")]
     assert why(recording) == ("time", 4.0, "All 4 s were run.")
 
 
@@ -157,7 +157,7 @@ def test_log_levels_are_those_of_a_program_or_of_a_logger():
 
 def test_a_program_may_keep_its_log_lines_from_rosout():
     silent = Process(names.Logs, name="silent", arguments=["--ros-args", "--disable-rosout-logs"])
-    recording = run(names.HearsLogs, silent, names.Logs, seconds=1, quiet=True)
+    recording = run(names.ReceivesLogs, silent, names.Logs, seconds=1, quiet=True)
     received = [(stamp, text) for stamp, text in recording.prints if text.strip()]
     assert received == [(1.0, "logs: info"), (1.0, "logs: warning")]
 
@@ -167,7 +167,7 @@ def test_the_place_of_a_log_line_is_known_without_reading_sources(monkeypatch):
     rows = [first + row for row, line in enumerate(lines) if "info" in line or "warning" in line]
     asked = []
     monkeypatch.setattr(inspect, "getmodule", asked.append)  # it looks at all modules, for a cell's code
-    recording = run(names.HearsPlaces, names.Logs, seconds=1, quiet=True)
+    recording = run(names.ReceivesPlaces, names.Logs, seconds=1, quiet=True)
     places = [text.strip() for _, text in recording.prints if text.strip()]
     assert places == [f"{names.__file__} tick {row}" for row in rows]
     assert asked == []

@@ -11,8 +11,9 @@ FAR = Network(delay=0.25)
 RADIO = Network(loss=0.2, delay=0.05, jitter=0.02)
 
 
-def through(between, talker, *hearers, seconds=10, **more):
-    return run(Process(talker, host="robot"), *hearers, seconds=seconds, network=between, quiet=True, **more)
+def through(between, talker, *listeners, seconds=10, **more):
+    talker = Process(talker, host="robot")
+    return run(talker, *listeners, seconds=seconds, network=between, quiet=True, **more)
 
 
 def received(recording):
@@ -26,26 +27,26 @@ def crossing(recording):
 
 @pytest.fixture(scope="module")
 def best_effort():
-    return through(RADIO, network.SloppyCounter, network.SloppyHearer, seconds=60)
+    return through(RADIO, network.SloppyCounter, network.SloppyListener, seconds=60)
 
 
 def test_a_delay_makes_messages_late():
-    recording = through(FAR, network.Counter, network.Hearer, seconds=0.6)
+    recording = through(FAR, network.Counter, network.Listener, seconds=0.6)
     assert received(recording) == [(0.35, 1), (0.45, 2), (0.55, 3)]
     assert [row.stamp for row in recording.messages("/count")] == pytest.approx(
         [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
     )
-    assert recording.hosts == {"/counter": "robot", "/hearer": "laptop"}
+    assert recording.hosts == {"/counter": "robot", "/listener": "laptop"}
 
 
 def test_programs_of_one_host_need_no_network():
-    recording = run(network.Counter, network.Hearer, seconds=0.3, network=FAR, quiet=True)
+    recording = run(network.Counter, network.Listener, seconds=0.3, network=FAR, quiet=True)
     assert received(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
     assert recording.crossings == []
 
 
 def test_a_run_without_a_network_has_none_of_it():
-    recording = through(None, network.Counter, network.Hearer, seconds=0.3)
+    recording = through(None, network.Counter, network.Listener, seconds=0.3)
     assert received(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
     assert (recording.network, recording.hosts, recording.crossings) == (None, {}, [])
 
@@ -63,9 +64,9 @@ def test_best_effort_loses_the_share_that_the_network_loses_and_what_is_overtake
 
 
 def test_equal_runs_have_equal_digests_and_other_seeds_other_losses(best_effort, tmp_path):
-    again = through(RADIO, network.SloppyCounter, network.SloppyHearer, seconds=60)
+    again = through(RADIO, network.SloppyCounter, network.SloppyListener, seconds=60)
     assert again.digest == best_effort.digest
-    other = through(RADIO, network.SloppyCounter, network.SloppyHearer, seconds=60, seed=1)
+    other = through(RADIO, network.SloppyCounter, network.SloppyListener, seconds=60, seed=1)
     assert other.crossings != best_effort.crossings
     loaded = Recording.load(best_effort.save(tmp_path / "radio.mcap"))
     assert (loaded.network, loaded.crossings, loaded.hosts) == (
@@ -75,13 +76,13 @@ def test_equal_runs_have_equal_digests_and_other_seeds_other_losses(best_effort,
 
 def test_what_others_send_shifts_no_loss(best_effort):
     talkative = [Process(services.Adder, host="robot"), services.many_calls]
-    more = through(RADIO, network.SloppyCounter, network.SloppyHearer, *talkative, seconds=60)
+    more = through(RADIO, network.SloppyCounter, network.SloppyListener, *talkative, seconds=60)
     assert more.crossings == best_effort.crossings
 
 
 def test_a_play_loses_the_same(best_effort):
     player = play(
-        Process(network.SloppyCounter, host="robot"), network.SloppyHearer, seconds=60, network=RADIO,
+        Process(network.SloppyCounter, host="robot"), network.SloppyListener, seconds=60, network=RADIO,
         quiet=True, speed=1e9,
     )  # fmt: skip
     assert player.result().digest == best_effort.digest
@@ -89,20 +90,20 @@ def test_a_play_loses_the_same(best_effort):
 
 def test_links_have_networks_of_their_own():
     links = {("robot", "laptop"): Network(delay=0.5), ("laptop", "robot"): Network(delay=0.125)}
-    hearer = Process(network.Hearer, host="robot")
-    assert received(through(Network(links=links), network.Counter, network.Hearer, seconds=0.7)) == [
+    listener = Process(network.Listener, host="robot")
+    assert received(through(Network(links=links), network.Counter, network.Listener, seconds=0.7)) == [
         (0.6, 1), (0.7, 2),
     ]  # fmt: skip
-    back = run(network.Counter, hearer, seconds=0.4, network=Network(links=links), quiet=True)
+    back = run(network.Counter, listener, seconds=0.4, network=Network(links=links), quiet=True)
     assert received(back) == [(0.225, 1), (0.325, 2)]
     both_ways = Network(links={("robot", "base"): Network(delay=0.5)})
     talker = Process(network.Counter, host="base")
-    assert received(run(talker, hearer, seconds=0.7, network=both_ways, quiet=True)) == [(0.6, 1), (0.7, 2)]
+    assert received(run(talker, listener, seconds=0.7, network=both_ways, quiet=True)) == [(0.6, 1), (0.7, 2)]
 
 
 def test_bandwidth_is_shared_and_what_is_too_much_is_lost():
     narrow = Network(bandwidth=40)  # a number takes 8 bytes, so five a second; ten are sent
-    recording = through(narrow, network.SloppyCounter, network.SloppyHearer, seconds=4)
+    recording = through(narrow, network.SloppyCounter, network.SloppyListener, seconds=4)
     assert received(recording)[:3] == [(0.3, 1), (0.5, 2), (0.7, 3)]
     assert crossing(recording).late == pytest.approx(1.2)
     assert crossing(recording).lost == 15
@@ -110,7 +111,7 @@ def test_bandwidth_is_shared_and_what_is_too_much_is_lost():
 
 def test_reliable_messages_come_in_order_when_a_heartbeat_has_asked_for_the_lost_ones():
     recording = through(
-        Network(loss=0.1, delay=0.02), network.DeepCounter, network.Hearer, seconds=20, seed=1
+        Network(loss=0.1, delay=0.02), network.DeepCounter, network.Listener, seconds=20, seed=1
     )
     numbers, row = [number for _, number in received(recording)], crossing(recording)
     assert numbers == list(range(1, len(numbers) + 1))
@@ -122,7 +123,7 @@ def test_reliable_messages_come_in_order_when_a_heartbeat_has_asked_for_the_lost
 
 
 def test_a_full_history_asks_at_once_and_forgets():
-    recording = through(Network(loss=0.3, delay=0.02), network.ShallowCounter, network.Hearer, seconds=20)
+    recording = through(Network(loss=0.3, delay=0.02), network.ShallowCounter, network.Listener, seconds=20)
     row, numbers = crossing(recording), [number for _, number in received(recording)]
     assert numbers == sorted(numbers)
     assert (row.lost, row.resent, row.late) == (39, 28, pytest.approx(0.22))
@@ -136,37 +137,37 @@ def test_one_message_comes_at_last():
 
 
 def lone(seed):
-    return through(Network(loss=0.5, delay=0.02), network.OneWord, network.Hearer, seconds=60, seed=seed)
+    return through(Network(loss=0.5, delay=0.02), network.OneWord, network.Listener, seconds=60, seed=seed)
 
 
 def test_lifespans_end_on_the_way():
-    recording = through(Network(delay=0.5), network.BriefCounter, network.BriefHearer, seconds=3)
+    recording = through(Network(delay=0.5), network.BriefCounter, network.BriefListener, seconds=3)
     assert logged(recording) == []
     assert crossing(recording).expired == 25
 
 
 def test_the_lifespan_of_the_publisher_ends_no_message_that_is_on_its_way():
-    recording = through(Network(delay=0.5), network.BriefCounter, network.Hearer, seconds=3)
+    recording = through(Network(delay=0.5), network.BriefCounter, network.Listener, seconds=3)
     assert [text for _, text in logged(recording)] == [str(number) for number in range(1, 26)]
     assert crossing(recording).expired == 0
 
 
 def test_late_joiners_get_what_is_latched_through_the_network():
-    recording = through(FAR, network.LatchingCounter, network.LateHearer, seconds=3)
+    recording = through(FAR, network.LatchingCounter, network.LateListener, seconds=3)
     assert received(recording) == [(2.25, 3), (2.25, 4), (2.25, 5)]
-    lossy = through(Network(loss=0.5, delay=0.25), network.LatchingCounter, network.LateHearer, seconds=30)
+    lossy = through(Network(loss=0.5, delay=0.25), network.LatchingCounter, network.LateListener, seconds=30)
     assert [number for _, number in received(lossy)] == [3, 4, 5]
     assert crossing(lossy).resent > 0
 
 
 def test_what_is_under_way_arrives_though_its_publisher_has_gone():
-    recording = through(FAR, network.speaks_and_leaves, network.Hearer, seconds=5)
+    recording = through(FAR, network.speaks_and_leaves, network.Listener, seconds=5)
     assert received(recording) == [(0.35, 1)]
     assert (recording.ended.reason, crossing(recording).resent) == ("time", 0)
 
 
 def test_what_is_lost_stays_lost_when_its_publisher_has_gone():
-    recording = through(Network(loss=1.0), network.speaks_and_leaves, network.Hearer, seconds=5)
+    recording = through(Network(loss=1.0), network.speaks_and_leaves, network.Listener, seconds=5)
     assert (logged(recording), crossing(recording).resent) == ([], 0)
 
 
@@ -184,14 +185,14 @@ def test_a_robot_drives_over_the_radio():
 
 
 def test_a_publisher_that_keeps_all_is_stopped_by_a_full_history():
-    recording = through(Network(loss=1.0), network.KeepsAll, network.HearsAll)
+    recording = through(Network(loss=1.0), network.KeepsAll, network.ReceivesAll)
     ((stamp, words),) = logged(recording)
     assert words == "5001: RCLError Failed to publish: cannot publish data"
     assert stamp == pytest.approx(1 + 4.0 + 0.1)  # from the 1001st on a message takes a millisecond
 
 
 def test_a_publisher_can_wait_for_acknowledgments():
-    recording = through(FAR, network.AsksWhetherAllHaveIt, network.Hearer)
+    recording = through(FAR, network.AsksWhetherAllHaveIt, network.Listener)
     words = [(line.stamp, line.text) for line in recording.logs if line.node == "counter"]
     assert words == [
         (1.1, "all have it: False"),

@@ -103,7 +103,7 @@ def test_a_driver_commands_as_its_robot_takes_it():
     assert since_start(received.message.header.stamp) == received.stamp
 
 
-def test_a_driver_speaks_as_often_as_it_hears_and_smoothly(three):
+def test_a_driver_speaks_as_often_as_it_receives_and_smoothly(three):
     commands = [received.message for received in three.messages("/leader/cmd_vel", "/leader/driver")]
     assert len(commands) == 600
     assert all(0 <= command.linear.x <= 0.3 for command in commands)

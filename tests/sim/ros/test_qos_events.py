@@ -93,20 +93,20 @@ def test_lost_messages_are_told_with_the_next_one_that_comes():
 
 def test_messages_that_wait_expire_in_simulated_time():
     assert received(qos_events.Talker, qos_events.BriefSleeper) == [
-        (0.5, "heard 0"), (2.25, "heard 2"), (4.0, "heard 6"),
+        (0.5, "received 0"), (2.25, "received 2"), (4.0, "received 6"),
     ]  # fmt: skip
 
 
 def test_the_lifespan_of_the_publisher_lets_no_message_expire_that_has_arrived():
     assert received(qos_events.Talker, qos_events.Sleeper) == [
-        (0.5, "heard 0"), (2.25, "heard 1"), (4.0, "heard 2"),
+        (0.5, "received 0"), (2.25, "received 1"), (4.0, "received 2"),
     ]  # fmt: skip
 
 
 def test_latched_messages_expire_too():
     assert received(qos_events.latched_talker, qos_events.late) == [
-        (2.25, "heard 2"), (2.25, "heard 3"), (2.5, "heard 4"), (3.0, "heard 5"), (3.5, "heard 6"),
-        (4.0, "heard 7"),
+        (2.25, "received 2"), (2.25, "received 3"), (2.5, "received 4"), (3.0, "received 5"),
+        (3.5, "received 6"), (4.0, "received 7"),
     ]  # fmt: skip
 
 

@@ -17,15 +17,15 @@ class Sender(Node):
         self.create_publisher(String, "words", qos_profile_sensor_data)
 
 
-class Hearer(Node):
+class Listener(Node):
     def __init__(self):
-        super().__init__("hearer")
+        super().__init__("listener")
         self.create_subscription(String, "words", print, 10)
         self.get_logger().warning("mine")
 
 
 def test_qos_that_does_not_fit_is_recorded_and_not_shown(capfd):
-    recording = run(Sender, Hearer, seconds=1.0)
+    recording = run(Sender, Listener, seconds=1.0)
     assert sum("incompatible QoS" in line.text for line in recording.logs) == 2
     shown = capfd.readouterr().out
     assert "mine" in shown and "incompatible" not in shown

@@ -108,7 +108,7 @@ def test_nothing_is_created_after_shutdown(create, text):
 
 
 @pytest.mark.parametrize("programs", [
-    [topics.Hears, topics.SaysItAtOnce], [topics.SaysItAtOnce, topics.Hears],
+    [topics.Receives, topics.SaysItAtOnce], [topics.SaysItAtOnce, topics.Receives],
 ], ids=["matched before", "matched after"])  # fmt: skip
 def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs):
     recording = run(*programs, seconds=3, quiet=True)
@@ -117,7 +117,7 @@ def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs
     ]
     lost = [(0.0, "/hasty", "/words"), (1.0, "/hasty", "/more_words")]
     assert [tuple(row) for row in recording.undelivered] == (
-        lost if programs[0] is topics.Hears else lost[1:]
+        lost if programs[0] is topics.Receives else lost[1:]
     )
     assert len(recording.messages("/more_words")) == 3
     early = [(received.stamp, received.topic) for received in recording.messages() if received.early]
@@ -125,7 +125,7 @@ def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs
 
 
 def test_what_is_latched_is_not_lost():
-    recording = run(topics.HearsWhatIsLatched, topics.SaysItAtOnceAndLatches, seconds=1, quiet=True)
+    recording = run(topics.ReceivesWhatIsLatched, topics.SaysItAtOnceAndLatches, seconds=1, quiet=True)
     assert logged(recording) == ["in __init__", "from a timer", "in a new one"]
     assert recording.undelivered == []
     assert not any(received.early for received in recording.messages())
@@ -137,10 +137,10 @@ def test_nodes_of_one_program_know_each_other_at_once():
     assert recording.undelivered == []
 
 
-def test_a_subscription_that_is_as_new_hears_nothing_of_that_moment():
-    recording = run(topics.Hears, topics.LateHearer, topics.SaysItAtOnce, seconds=2, quiet=True)
+def test_a_subscription_that_is_as_new_receives_nothing_of_that_moment():
+    recording = run(topics.Receives, topics.LateListener, topics.SaysItAtOnce, seconds=2, quiet=True)
     assert [(line.stamp, line.node) for line in recording.logs] == [
-        (1.0, "hears"), (2.0, "hears"), (2.0, "late"),
+        (1.0, "receives"), (2.0, "receives"), (2.0, "late"),
     ]  # fmt: skip
 
 
@@ -155,5 +155,5 @@ def counts_subscriptions():
 
 
 def test_a_subscription_counts_as_soon_as_messages_reach_it():
-    recording = run(topics.Hears, counts_subscriptions, seconds=1, quiet=True)
+    recording = run(topics.Receives, counts_subscriptions, seconds=1, quiet=True)
     assert [(line.stamp, line.text) for line in recording.logs] == [(0.0, "0"), (0.1, "1")]

@@ -97,7 +97,7 @@ def test_one_load_at_a_time_and_the_oldest_first(served):
     assert len(taken) > 3 and taken == sorted(taken)
 
 
-def test_who_comes_later_hears_of_all_orders(served):
+def test_a_late_subscriber_receives_all_orders(served):
     texts = [line.text for line in served.logs if line.node == "late"]
     before = [f"{item.message.id} {item.message.status}" for item in served.messages("/orders")]
     assert texts == before

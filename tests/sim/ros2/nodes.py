@@ -51,9 +51,9 @@ class Listener(Node):
 
     def __init__(self):
         super().__init__("listener", namespace="/upstairs")
-        self.create_subscription(Float64, "/level", self.hear, 10)
+        self.create_subscription(Float64, "/level", self.on_message, 10)
 
-    def hear(self, message):
+    def on_message(self, message):
         self.get_logger().info(f"level {message.data:g}")
 
 

@@ -22,9 +22,9 @@ def typed(command):
 
 def test_a_command_takes_part_in_a_run():
     recording = typed(f"ros2 topic pub -r 10 /cmd_vel {TWIST}")
-    heard = recording.messages("/cmd_vel")
-    assert {one.sender for one in heard} == {"/_ros2cli"}
-    assert [one.stamp for one in heard[:3]] == [0.0, 0.1, 0.2]
+    received = recording.messages("/cmd_vel")
+    assert {one.sender for one in received} == {"/_ros2cli"}
+    assert [one.stamp for one in received[:3]] == [0.0, 0.1, 0.2]
     assert recording.path[-1].x > 0.4
 
 

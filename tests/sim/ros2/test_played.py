@@ -51,7 +51,7 @@ def test_commands_that_change_the_system_match_the_official_tools(playing):
     for command in filter(CHANGES.match, OFFICIAL):
         expected = plain(OFFICIAL[command])
         assert plain(playing(command)) == OURS.get(command, expected), command
-    levels = [heard.message.data for heard in playing.player.recording.messages("/level")]
+    levels = [received.message.data for received in playing.player.recording.messages("/level")]
     assert levels == [2.0, 2.0, 2.0]
     assert not playing.player.recording.errors
 
@@ -219,5 +219,5 @@ def test_a_bag_is_recorded_described_and_played_back(playing):
     before = len(playing.player.recording.messages("/place"))
     assert playing("bag play -r 5 kept --topics /place") == "Played 50 messages from kept\n"
     again = playing.player.recording.messages("/place")[before:]
-    assert sum(heard.sender != "/talker" for heard in again) == 50
+    assert sum(received.sender != "/talker" for received in again) == 50
     assert playing("bag record -a -o kept") == "Output folder 'kept' already exists.\n"

@@ -67,9 +67,9 @@ from rclpy.node import Node
 from turtlesim.msg import Pose
 
 rclpy.init()
-node, heard = Node("watcher"), []
-node.create_subscription(Pose, "/turtlesim2/turtle1/pose", heard.append, 1)
-while not heard or heard[-1].linear_velocity < 1.9:
+node, received = Node("watcher"), []
+node.create_subscription(Pose, "/turtlesim2/turtle1/pose", received.append, 1)
+while not received or received[-1].linear_velocity < 1.9:
     rclpy.spin_once(node)
 print("it mimics", flush=True)
 """

@@ -27,18 +27,18 @@ class Courier(Node):
     def send(self):
         goal = DriveOnHeading.Goal(speed=self.speed)
         goal.target.x = self.meters
-        self.client.send_goal_async(goal).add_done_callback(self.hear_response)
+        self.client.send_goal_async(goal).add_done_callback(self.on_response)
 
-    def hear_response(self, future):
+    def on_response(self, future):
         self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.hear_result)
+        self.goal_handle.get_result_async().add_done_callback(self.on_result)
         self.timer = self.create_timer(self.patience, self.give_up)
 
     def give_up(self):
         self.timer.cancel()
         self.goal_handle.cancel_goal_async()
 
-    def hear_result(self, future):
+    def on_result(self, future):
         self.timer.cancel()
         answer = future.result()
         if answer.status == GoalStatus.STATUS_SUCCEEDED:
@@ -97,9 +97,9 @@ def main_that_waits_with_a_limit():
 
 
 class NeverGivesUp(Courier):
-    def hear_response(self, future):
+    def on_response(self, future):
         self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.hear_result)
+        self.goal_handle.get_result_async().add_done_callback(self.on_result)
 
 
 class SendsNothing(Courier):
@@ -118,14 +118,14 @@ class MisspeltName(Courier):
 class ForgetsTheTarget(Courier):
     def send(self):
         goal = DriveOnHeading.Goal(speed=0.4)
-        self.client.send_goal_async(goal).add_done_callback(self.hear_response)
+        self.client.send_goal_async(goal).add_done_callback(self.on_response)
 
 
 class WholeNumber(Courier):
     def send(self):
         goal = DriveOnHeading.Goal(speed=0.4)
         goal.target.x = 2
-        self.client.send_goal_async(goal).add_done_callback(self.hear_response)
+        self.client.send_goal_async(goal).add_done_callback(self.on_response)
 
 
 class Impatient(Courier):
@@ -135,9 +135,9 @@ class Impatient(Courier):
 class GivesUpAtOnce(Courier):
     """Brackets too many: what is handed over is what give_up returns."""
 
-    def hear_response(self, future):
+    def on_response(self, future):
         self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.hear_result)
+        self.goal_handle.get_result_async().add_done_callback(self.on_result)
         self.timer = self.create_timer(8.0, self.give_up())
 
 
@@ -146,26 +146,26 @@ class GivesUpTooLate(Courier):
 
 
 class ForgetsTheTimerAtTheEnd(Courier):
-    def hear_result(self, future):
+    def on_result(self, future):
         timer, self.timer = self.timer, self.create_timer(100.0, lambda: None)
-        super().hear_result(future)
+        super().on_result(future)
         self.timer = timer
 
 
 class AnyResultIsArrived(Courier):
-    def hear_result(self, future):
+    def on_result(self, future):
         self.timer.cancel()
         self.get_logger().info("The robot has arrived.")
 
 
 class SaysBoth(Courier):
-    def hear_result(self, future):
-        super().hear_result(future)
+    def on_result(self, future):
+        super().on_result(future)
         self.get_logger().info("Arrived, or so.")
 
 
 class WarnsWithoutTheReason(Courier):
-    def hear_result(self, future):
+    def on_result(self, future):
         self.timer.cancel()
         if future.result().status == GoalStatus.STATUS_SUCCEEDED:
             self.get_logger().info("arrived")
@@ -176,7 +176,7 @@ class WarnsWithoutTheReason(Courier):
 class StatusOfTheResult(Courier):
     """The status is beside the result, not in it."""
 
-    def hear_result(self, future):
+    def on_result(self, future):
         if future.result().result.status == GoalStatus.STATUS_SUCCEEDED:
             self.get_logger().info("arrived")
 
@@ -184,7 +184,7 @@ class StatusOfTheResult(Courier):
 class ComparesWithTheErrorCode(Courier):
     """error_code stays 0 when somebody cancels."""
 
-    def hear_result(self, future):
+    def on_result(self, future):
         self.timer.cancel()
         if future.result().result.error_code == 0:
             self.get_logger().info("arrived")
@@ -193,22 +193,22 @@ class ComparesWithTheErrorCode(Courier):
 
 
 class SaysNothing(Courier):
-    def hear_result(self, future):
+    def on_result(self, future):
         self.timer.cancel()
 
 
 class SleepsInPlaceOfATimer(Courier):
-    """While it sleeps it can't hear the result."""
+    """While it sleeps it can't receive the result."""
 
-    def hear_response(self, future):
+    def on_response(self, future):
         self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.hear_result)
+        self.goal_handle.get_result_async().add_done_callback(self.on_result)
         time.sleep(8.0)
         self.goal_handle.cancel_goal_async()
 
 
 class NeverAsksForTheResult(Courier):
-    def hear_response(self, future):
+    def on_response(self, future):
         self.goal_handle = future.result()
         self.timer = self.create_timer(self.patience, self.give_up)
 
@@ -225,10 +225,10 @@ class LogsItsWayQuietly(Courier):
     def send(self):
         goal = DriveOnHeading.Goal(speed=self.speed)
         goal.target.x = self.meters
-        sent = self.client.send_goal_async(goal, feedback_callback=self.hear_feedback)
-        sent.add_done_callback(self.hear_response)
+        sent = self.client.send_goal_async(goal, feedback_callback=self.on_feedback)
+        sent.add_done_callback(self.on_response)
 
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         meters = msg.feedback.distance_traveled
         self.get_logger().debug(f"{meters:.3f} m")
         self.get_logger().info(f"{meters:.1f} m", throttle_duration_sec=1.0)

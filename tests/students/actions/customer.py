@@ -25,20 +25,20 @@ class Customer(Node):
 
     def send(self):
         goal = Fibonacci.Goal(order=self.order)
-        future = self.client.send_goal_async(goal, feedback_callback=self.hear_feedback)
-        future.add_done_callback(self.hear_response)
+        future = self.client.send_goal_async(goal, feedback_callback=self.on_feedback)
+        future.add_done_callback(self.on_response)
 
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         self.get_logger().info(f"progress: {msg.feedback.sequence[-1]}")
 
-    def hear_response(self, future):
+    def on_response(self, future):
         goal_handle = future.result()
         if not goal_handle.accepted:
             self.get_logger().warning("The goal was rejected.")
             return
-        goal_handle.get_result_async().add_done_callback(self.hear_result)
+        goal_handle.get_result_async().add_done_callback(self.on_result)
 
-    def hear_result(self, future):
+    def on_result(self, future):
         self.get_logger().info(f"result: {list(future.result().result.sequence)}")
 
 
@@ -97,14 +97,14 @@ class AwaitingCustomer(Node):
         if not self.client.server_is_ready():
             return
         self.timer.cancel()
-        handle = await self.client.send_goal_async(Fibonacci.Goal(order=7), self.hear_feedback)
+        handle = await self.client.send_goal_async(Fibonacci.Goal(order=7), self.on_feedback)
         if handle.accepted:
             answer = await handle.get_result_async()
             self.get_logger().info("The result is " + ", ".join(map(str, answer.result.sequence)))
         else:
             self.get_logger().warning("rejected")
 
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         self.get_logger().info(str(list(msg.feedback.sequence)))
 
 
@@ -160,87 +160,87 @@ class SendsANumber(Customer):
 class WithoutFeedback(Customer):
     def send(self):
         future = self.client.send_goal_async(Fibonacci.Goal(order=self.order))
-        future.add_done_callback(self.hear_response)
+        future.add_done_callback(self.on_response)
 
 
 class FeedbackWithoutFeedback(Customer):
     """The message has the feedback inside."""
 
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         self.get_logger().info(f"progress: {msg.sequence[-1]}")
 
 
 class PrintsTheProgress(Customer):
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         print(f"progress: {msg.feedback.sequence[-1]}")
 
 
 class LogsTheFirstNumber(Customer):
-    def hear_feedback(self, msg):
+    def on_feedback(self, msg):
         self.get_logger().info(f"progress: {msg.feedback.sequence[0]}")
 
 
-class NobodyHearsTheResponse(Customer):
+class NobodyReceivesTheResponse(Customer):
     def send(self):
-        self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.hear_feedback)
+        self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.on_feedback)
 
 
 class NeverAsksForTheResult(Customer):
-    def hear_response(self, future):
+    def on_response(self, future):
         if not future.result().accepted:
             self.get_logger().warning("The goal was rejected.")
 
 
 class ReadsTheResultOfTheResponse(Customer):
-    def hear_response(self, future):
+    def on_response(self, future):
         if not future.result().accepted:
             self.get_logger().warning("The goal was rejected.")
             return
-        self.hear_result(future)
+        self.on_result(future)
 
 
 class LogsTheWholeAnswer(Customer):
     """Result inside result."""
 
-    def hear_result(self, future):
+    def on_result(self, future):
         self.get_logger().info(f"result: {list(future.result().sequence)}")
 
 
 class NeverLooksAtAccepted(Customer):
-    def hear_response(self, future):
-        future.result().get_result_async().add_done_callback(self.hear_result)
+    def on_response(self, future):
+        future.result().get_result_async().add_done_callback(self.on_result)
 
 
 class AlwaysSaysRejected(Customer):
-    def hear_response(self, future):
+    def on_response(self, future):
         self.get_logger().warning("The goal was rejected.")
         if future.result().accepted:
-            future.result().get_result_async().add_done_callback(self.hear_result)
+            future.result().get_result_async().add_done_callback(self.on_result)
 
 
 class InfoInPlaceOfWarning(Customer):
-    def hear_response(self, future):
+    def on_response(self, future):
         if future.result().accepted:
-            super().hear_response(future)
+            super().on_response(future)
         else:
             self.get_logger().info("The goal was rejected.")
 
 
 class BracketsTooMany(Customer):
     def send(self):
-        future = self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.hear_feedback)
-        future.add_done_callback(self.hear_response(future))
+        future = self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.on_feedback)
+        future.add_done_callback(self.on_response(future))
 
 
 class WaitsInTheCallback(Customer):
     def send(self):
-        future = self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.hear_feedback)
+        future = self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.on_feedback)
         rclpy.spin_until_future_complete(self, future)
-        self.hear_response(future)
+        self.on_response(future)
 
 
 class LogsTheLastNumberOnly(Customer):
-    def hear_result(self, future):
+    def on_result(self, future):
         self.get_logger().info(f"result: {future.result().result.sequence[-1]}")
 
 

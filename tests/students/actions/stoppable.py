@@ -20,9 +20,9 @@ class StoppableServer(Node):
         self.server = self.offer()
 
     def offer(self):
-        return ActionServer(self, Fibonacci, "/fibonacci", self.execute, cancel_callback=self.hear_cancel)
+        return ActionServer(self, Fibonacci, "/fibonacci", self.execute, cancel_callback=self.on_cancel)
 
-    def hear_cancel(self, goal_handle):
+    def on_cancel(self, goal_handle):
         return CancelResponse.ACCEPT
 
     def execute(self, goal_handle):
@@ -159,7 +159,7 @@ class ByATimer(StoppableServer):
 
 
 class OneThread(StoppableServer):
-    """The trap of this exercise: nobody can hear while it sleeps."""
+    """The trap of this exercise: nobody can receive while it sleeps."""
 
 
 def main_that_spins_with_one_thread():
@@ -177,7 +177,7 @@ class ReentrantAlone(StoppableServer):
             Fibonacci,
             "/fibonacci",
             self.execute,
-            cancel_callback=self.hear_cancel,
+            cancel_callback=self.on_cancel,
             callback_group=group,
         )
 
@@ -192,7 +192,7 @@ def main_without_cancel_callback():
 
 def main_that_refuses():
     class Refusing(StoppableServer):
-        def hear_cancel(self, goal_handle):
+        def on_cancel(self, goal_handle):
             return CancelResponse.REJECT
 
     threaded(Refusing)
@@ -200,7 +200,7 @@ def main_that_refuses():
 
 def main_that_answers_nothing():
     class Silent(StoppableServer):
-        def hear_cancel(self, goal_handle):
+        def on_cancel(self, goal_handle):
             self.get_logger().info("I heard it")
 
     threaded(Silent)
@@ -328,7 +328,7 @@ def main_with_a_group_for_one():
                 Fibonacci,
                 "/fibonacci",
                 self.execute,
-                cancel_callback=self.hear_cancel,
+                cancel_callback=self.on_cancel,
                 callback_group=group,
             )
 
@@ -351,7 +351,7 @@ def main_that_never_adds_the_node():
 
 class MisspeltName(StoppableServer):
     def offer(self):
-        return ActionServer(self, Fibonacci, "/fibonaccy", self.execute, cancel_callback=self.hear_cancel)
+        return ActionServer(self, Fibonacci, "/fibonaccy", self.execute, cancel_callback=self.on_cancel)
 
 
 class NeverSleeps(StoppableServer):

@@ -22,10 +22,10 @@ class SpinServer(Node):
         super().__init__("spin_server")
         self.yaw, self.turned = 0.0, 0.0
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(Odometry, "/odom", self.hear_odometry, 10)
-        self.server = ActionServer(self, Spin, "/spin", self.execute, cancel_callback=self.hear_cancel)
+        self.create_subscription(Odometry, "/odom", self.on_odometry, 10)
+        self.server = ActionServer(self, Spin, "/spin", self.execute, cancel_callback=self.on_cancel)
 
-    def hear_odometry(self, msg):
+    def on_odometry(self, msg):
         q = msg.pose.pose.orientation
         yaw = 2.0 * math.atan2(q.z, q.w)
         self.add(yaw)
@@ -34,7 +34,7 @@ class SpinServer(Node):
     def add(self, yaw):
         self.turned += math.remainder(yaw - self.yaw, math.tau)
 
-    def hear_cancel(self, goal_handle):
+    def on_cancel(self, goal_handle):
         return CancelResponse.ACCEPT
 
     async def execute(self, goal_handle):
@@ -104,8 +104,8 @@ class SpinByOdometry(SpinServer):
         self.goal, self.turned, self.over = goal_handle, 0.0, Future()
         return await self.over
 
-    def hear_odometry(self, msg):
-        super().hear_odometry(msg)
+    def on_odometry(self, msg):
+        super().on_odometry(msg)
         if self.goal is None:
             return
         left = self.goal.request.target_yaw - self.turned
@@ -144,7 +144,7 @@ class MisspeltName(SpinServer):
     def __init__(self):
         Node.__init__(self, "spin_server")
         self.yaw, self.turned = 0.0, 0.0
-        self.create_subscription(Odometry, "/odom", self.hear_odometry, 10)
+        self.create_subscription(Odometry, "/odom", self.on_odometry, 10)
         self.server = ActionServer(self, Spin, "/spinn", self.execute)
 
 
@@ -153,11 +153,11 @@ class NoOdometry(SpinServer):
         Node.__init__(self, "spin_server")
         self.turned = 0.0
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.server = ActionServer(self, Spin, "/spin", self.execute, cancel_callback=self.hear_cancel)
+        self.server = ActionServer(self, Spin, "/spin", self.execute, cancel_callback=self.on_cancel)
 
 
 class SleepsWithOneThread(SpinServer):
-    """Nobody hears /odom while it sleeps, so it turns for ever."""
+    """Nobody receives /odom while it sleeps, so it turns for ever."""
 
     async def pause(self, seconds):
         time.sleep(seconds)
@@ -246,7 +246,7 @@ class TellsTheTarget(SpinServer):
 
 
 class RefusesToCancel(SpinServer):
-    def hear_cancel(self, goal_handle):
+    def on_cancel(self, goal_handle):
         return CancelResponse.REJECT
 
 
@@ -313,9 +313,9 @@ class NewestGoalWins(SpinServer):
 
     def __init__(self):
         super().__init__()
-        self.server.register_handle_accepted_callback(self.hear_accepted)
+        self.server.register_handle_accepted_callback(self.on_accepted)
 
-    def hear_accepted(self, goal_handle):
+    def on_accepted(self, goal_handle):
         self.current = goal_handle
         goal_handle.execute()
 

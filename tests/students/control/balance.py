@@ -20,9 +20,9 @@ class Balancer(Node):
         self.begin, self.stood, self.fell = None, 0.0, False
         self.publisher = self.create_publisher(Float64, "/cart_effort", 10)
         self.times = self.create_publisher(Float64, "/stood", 10)
-        self.create_subscription(JointState, "/joint_states", self.hear, 10)
+        self.create_subscription(JointState, "/joint_states", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         angle, rate = msg.position[1], msg.velocity[1]
         self.push(angle, rate)
         now = Time.from_msg(msg.header.stamp).nanoseconds / 1e9
@@ -65,7 +65,7 @@ class ByName(Node):
 
 
 class OnATimer(Balancer):
-    """Keeps what it heard, and pushes a hundred times a second."""
+    """Keeps what it received, and pushes a hundred times a second."""
 
     period = 0.01
 
@@ -85,7 +85,7 @@ def main_without_a_class():
     times = node.create_publisher(Float64, "/stood", 10)
     stamps, fallen = [], []
 
-    def hear(msg):
+    def on_message(msg):
         if abs(msg.position[1]) > 0.5 or fallen:
             fallen.append(msg)
         else:
@@ -93,7 +93,7 @@ def main_without_a_class():
         efforts.publish(Float64(data=-(40.0 * msg.position[1] + 5.0 * msg.velocity[1])))
         times.publish(Float64(data=stamps[-1] - stamps[0]))
 
-    node.create_subscription(JointState, "/joint_states", hear, 10)
+    node.create_subscription(JointState, "/joint_states", on_message, 10)
     rclpy.spin(node)
 
 
@@ -118,7 +118,7 @@ class TenHertz(OnATimer):
 
 
 class EveryFourth(Balancer):
-    """Hears a hundred joint states a second, and answers 25."""
+    """Receives a hundred joint states a second, and answers 25."""
 
     count = 0
 
@@ -129,7 +129,7 @@ class EveryFourth(Balancer):
 
 
 class Sleeps(Balancer):
-    """Waits for the cart to move, and hears nothing meanwhile."""
+    """Waits for the cart to move, and receives nothing meanwhile."""
 
     def push(self, angle, rate):
         super().push(angle, rate)

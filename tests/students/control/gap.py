@@ -21,9 +21,9 @@ class Stopper(Node):
         self.distance, self.sum = self.first, 0.0
         self.distances = self.create_publisher(Float64, "/distance", 10)
         self.speeds = self.create_publisher(Float64, "/speed", 10)
-        self.create_subscription(LaserScan, "/scan", self.hear, qos_profile_sensor_data)
+        self.create_subscription(LaserScan, "/scan", self.on_message, qos_profile_sensor_data)
 
-    def hear(self, scan):
+    def on_message(self, scan):
         self.filter(scan.ranges[0])
         self.distances.publish(Float64(data=self.distance))
         self.speeds.publish(Float64(data=self.speed(self.distance - 0.6)))
@@ -67,7 +67,7 @@ def main_without_a_class():
     distances = node.create_publisher(Float64, "/distance", 10)
     speeds = node.create_publisher(Float64, "/speed", 10)
 
-    def hear(scan):
+    def on_message(scan):
         seen.append(0.8 * (seen or scan.ranges)[-1 if seen else 0] + 0.2 * scan.ranges[0])
         error = seen[-1] - 0.6
         if abs(error) < 0.4:
@@ -75,7 +75,7 @@ def main_without_a_class():
         distances.publish(Float64(data=seen[-1]))
         speeds.publish(Float64(data=max(-0.3, min(0.3, 0.6 * error + 0.15 * sums[-1]))))
 
-    node.create_subscription(LaserScan, "/scan", hear, qos_profile_sensor_data)
+    node.create_subscription(LaserScan, "/scan", on_message, qos_profile_sensor_data)
     rclpy.spin(node)
 
 
@@ -146,10 +146,10 @@ class ToTheWall(Stopper):
 class EverySecondScan(Stopper):
     count = 0
 
-    def hear(self, scan):
+    def on_message(self, scan):
         self.count += 1
         if self.count % 2:
-            super().hear(scan)
+            super().on_message(scan)
 
 
 class Wobbles(Stopper):
@@ -159,7 +159,7 @@ class Wobbles(Stopper):
 
 
 class SaysNoSpeed(Stopper):
-    def hear(self, scan):
+    def on_message(self, scan):
         self.filter(scan.ranges[0])
         self.distances.publish(Float64(data=self.distance))
 
@@ -167,7 +167,7 @@ class SaysNoSpeed(Stopper):
 class LeavesItToTheBrake(Stopper):
     """Drives up to the place, and says nothing more."""
 
-    def hear(self, scan):
+    def on_message(self, scan):
         self.filter(scan.ranges[0])
         self.distances.publish(Float64(data=self.distance))
         if self.distance > 0.62:

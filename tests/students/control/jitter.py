@@ -18,12 +18,12 @@ class Meter(Node):
             name: self.create_publisher(kind, name, 10)
             for name, kind in (("/latency", Float64), ("/jitter", Float64), ("/late", Int32))
         }
-        self.create_subscription(Header, "/beat", self.hear, 10)
+        self.create_subscription(Header, "/beat", self.on_message, 10)
 
     def now(self):
         return self.get_clock().now().nanoseconds / 1e9
 
-    def hear(self, msg):
+    def on_message(self, msg):
         now, measured = self.now(), Time.from_msg(msg.stamp).nanoseconds / 1e9
         self.say("/latency", self.latency(now, measured))
         if self.before is not None:
@@ -79,7 +79,7 @@ def main_without_a_class():
     late = node.create_publisher(Int32, "/late", 10)
     arrivals, waits = [], []
 
-    def hear(msg):
+    def on_message(msg):
         arrivals.append(node.get_clock().now().nanoseconds / 1e9)
         waits.append(arrivals[-1] - msg.stamp.sec - msg.stamp.nanosec / 1e9)
         latency.publish(Float64(data=waits[-1]))
@@ -87,14 +87,14 @@ def main_without_a_class():
         if len(arrivals) > 1:
             jitter.publish(Float64(data=abs(arrivals[-1] - arrivals[-2] - 0.02)))
 
-    node.create_subscription(Header, "/beat", hear, 10)
+    node.create_subscription(Header, "/beat", on_message, 10)
     rclpy.spin(node)
 
 
 class OtherTopic(Meter):
     def __init__(self):
         Node.__init__(self, "meter")
-        self.create_subscription(Header, "/tick", self.hear, 10)
+        self.create_subscription(Header, "/tick", self.on_message, 10)
 
 
 class SignTurned(Meter):
@@ -135,9 +135,9 @@ class AllInTheEnd(Meter):
 class ByTheStamps(Meter):
     """From one stamp to the next, not from arrival to arrival."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.stamp = Time.from_msg(msg.stamp).nanoseconds / 1e9
-        super().hear(msg)
+        super().on_message(msg)
 
     def moment(self, now, measured):
         self.old = measured
@@ -193,7 +193,7 @@ class LatencyOnly(Meter):
         Node.__init__(self, "meter")
         self.before, self.late = None, 0
         self.publisher = self.create_publisher(Float64, "/latency", 10)
-        self.create_subscription(Header, "/beat", self.hear, 10)
+        self.create_subscription(Header, "/beat", self.on_message, 10)
 
     def say(self, topic, value):
         if topic == "/latency":

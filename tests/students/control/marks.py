@@ -66,13 +66,13 @@ def main_without_a_class():
     node, mark = rclpy.create_node("driver"), [0.0]
     publisher = node.create_publisher(Float64, "/cart_effort", 10)
 
-    def hear(joints):
+    def on_message(joints):
         (x, angle), (v, w) = joints.position, joints.velocity
         push = 6.0 * (x - mark[-1]) + 8.0 * v - 45.0 * angle - 7.0 * w
         publisher.publish(Float64(data=min(max(push, -2.9), 2.9)))
 
     node.create_subscription(Float64, "/mark", lambda msg: mark.append(msg.data), 10)
-    node.create_subscription(JointState, "/joint_states", hear, 10)
+    node.create_subscription(JointState, "/joint_states", on_message, 10)
     rclpy.spin(node)
 
 

@@ -72,12 +72,12 @@ def main_without_a_class():
     node = rclpy.create_node("balancer")
     publisher = node.create_publisher(Float64, "/cart_effort", 10)
 
-    def hear(joints):
+    def on_message(joints):
         (x, angle), (v, w) = joints.position, joints.velocity
         push = 9.0 * x + 10.0 * v - 55.0 * angle - 8.0 * w
         publisher.publish(Float64(data=min(max(push, -10.0), 10.0)))
 
-    node.create_subscription(JointState, "/joint_states", hear, 10)
+    node.create_subscription(JointState, "/joint_states", on_message, 10)
     rclpy.spin(node)
 
 

@@ -80,12 +80,12 @@ def with_names_of_its_own():
 
 
 def decision_takes_the_nearest_order():
-    """A design of its own: decision hears where the robot is."""
+    """A design of its own: decision receives where the robot is."""
     drawn(more=[("decision", subscribes(*POSE))])
 
 
 def control_has_a_collision_monitor():
-    """A design of its own: control hears the scans, too, as Nav2's collision monitor does."""
+    """A design of its own: control receives the scans, too, as Nav2's collision monitor does."""
     drawn(more=[("control", SCAN)])
 
 
@@ -130,7 +130,7 @@ def two_drivers():
     drawn(more=[("decision", publishes(*COMMANDS))])
 
 
-def decision_hears_the_lidar():
+def decision_receives_the_lidar():
     drawn(more=[("decision", SCAN)])
 
 
@@ -149,7 +149,7 @@ def control_knows_orders():
 
 
 def safety_through_decision():
-    """Decision hears of people, and tells control whether it may drive."""
+    """Decision learns of people, and tells control whether it may drive."""
     drawn(
         more=[
             ("decision", subscribes(*PEOPLE)),

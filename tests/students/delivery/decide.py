@@ -144,13 +144,13 @@ class OneClassForEachState(Node):
         return "fetch", self.known[self.target].pickup
 
 
-class HearsTheNewOnly(Decision):
+class ReceivesTheNewOnly(Decision):
     """Subscribes as to any other topic."""
 
     profile = order_profile = 10
 
 
-class HearsNewOrdersOnly(Decision):
+class ReceivesNewOrdersOnly(Decision):
     """It knows the dock, and no order from before."""
 
     order_profile = 10

@@ -85,7 +85,7 @@ class Charger(Node):
 
 
 class Clerk(Decision):
-    """The other skill: which order. It hears of the battery from the charger alone."""
+    """The other skill: which order. It learns of the battery from the charger alone."""
 
     def __init__(self):
         super().__init__()
@@ -173,7 +173,7 @@ NeverCharges = Team(Perception, Restless, Control)
 
 
 class Forgetful(Decision):
-    """Hears orders that come while it is there, and no other."""
+    """Receives orders that come while it is there, and no other."""
 
     def create_subscription(self, kind, topic, callback, profile, **rest):
         return super().create_subscription(kind, topic, callback, 10 if kind is Order else profile, **rest)

@@ -156,7 +156,7 @@ class WhenItCame(Control):
 
 
 class AgeOfThePoseOnly(Control):
-    """As in the lesson: whoever hears of the pose has heard of the people."""
+    """As in the lesson: a node that received the pose has received the people."""
 
     def is_old(self):
         return self.now() - self.pose_at > 0.5
@@ -215,6 +215,6 @@ class Creeps(Control):
 
 
 class DeafToPeople(Control):
-    """Hears of people on a topic of its own."""
+    """Receives of people on a topic of its own."""
 
     people_topic = "/who_walks"

@@ -67,7 +67,7 @@ class Coroutine(Server):
 
 
 def parallel_server():
-    """Can hear a cancel while it executes."""
+    """Can receive a cancel while it executes."""
     rclpy.init()
     executor = MultiThreadedExecutor()
     executor.add_node(Server(ReentrantCallbackGroup()))

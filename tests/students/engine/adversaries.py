@@ -121,7 +121,7 @@ class RedirectsStdout(Ticking):
 
     def tick(self):
         sys.stdout = io.StringIO()
-        print("nobody hears this")
+        print("nobody receives this")
 
 
 class ClosesStdout(Ticking):

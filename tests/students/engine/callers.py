@@ -39,7 +39,7 @@ class AsksAtOnce(Node):
         client = self.create_client(AddTwoInts, "add")
         if looks:
             client.wait_for_service()
-        client.call_async(AddTwoInts.Request(a=number)).add_done_callback(self.hear)
+        client.call_async(AddTwoInts.Request(a=number)).add_done_callback(self.on_response)
         return client
 
     def again(self):
@@ -48,7 +48,7 @@ class AsksAtOnce(Node):
         self.ask(7, looks=True)
         self.create_timer(0.5, lambda: client.call_async(AddTwoInts.Request(a=8)))
 
-    def hear(self, future):
+    def on_response(self, future):
         self.get_logger().info(f"sum {future.result().sum}")
 
 

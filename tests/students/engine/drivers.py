@@ -77,7 +77,7 @@ class CommandsOnce(Driver):
 
 
 class Watcher(Node):
-    """Hears the sensors, one reliable and one with best effort, and says what their stamps are."""
+    """Receives the sensors, one reliable and one with best effort, and says what their stamps are."""
 
     def __init__(self):
         super().__init__("watcher")

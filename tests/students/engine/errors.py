@@ -29,10 +29,10 @@ class InSubscription(Node):
     def __init__(self):
         super().__init__("listener")
         publisher = self.create_publisher(Int32, "data", 10)
-        self.create_subscription(Int32, "data", self.hear, 10)
+        self.create_subscription(Int32, "data", self.on_message, 10)
         self.create_timer(1.5, lambda: publisher.publish(Int32(data=3)))
 
-    def hear(self, msg):
+    def on_message(self, msg):
         raise KeyError("speed")
 
 

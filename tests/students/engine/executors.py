@@ -15,13 +15,13 @@ from std_msgs.msg import Int32
 
 
 class Ticking(Node):
-    """Ticks every 0.5 s, for so many seconds each, and hears of it; has one coroutine callback, too."""
+    """Ticks every 0.5 s, for so many seconds each, and learns of it; has one coroutine callback, too."""
 
     def __init__(self, name, seconds=0.0):
         super().__init__(name)
         self.seconds = seconds
         self.publisher = self.create_publisher(Int32, "count", 10)
-        self.create_subscription(Int32, "count", self.hear, 10)
+        self.create_subscription(Int32, "count", self.on_message, 10)
         self.create_timer(0.5, self.tick)
 
     def tick(self):
@@ -29,8 +29,8 @@ class Ticking(Node):
         self.get_logger().info("tick")
         self.publisher.publish(Int32(data=1))
 
-    async def hear(self, message):
-        self.get_logger().info("heard")
+    async def on_message(self, message):
+        self.get_logger().info("received")
 
 
 class OneByOne(Executor):

@@ -31,7 +31,7 @@ class IgnoresCancel(Server):
 
 
 def parallel(server_class):
-    """A program whose server can hear a cancel while it executes."""
+    """A program whose server can receive a cancel while it executes."""
 
     def main():
         rclpy.init()

@@ -15,15 +15,15 @@ class Talker(Node):
         super().__init__("talker")
         self.publisher = self.create_publisher(String, "chatter", 10)
         self.create_timer(0.4, self.say)
-        self.create_subscription(String, "/one/chatter", self.hear, 10)
+        self.create_subscription(String, "/one/chatter", self.on_message, 10)
 
     def say(self):
         self.publisher.publish(String(data=self.get_namespace()))
 
-    def hear(self, message):
+    def on_message(self, message):
         if "dies" in sys.argv:
-            raise RuntimeError(f"heard {message.data}")
-        self.get_logger().info(f"heard {message.data}")
+            raise RuntimeError(f"received {message.data}")
+        self.get_logger().info(f"received {message.data}")
 
 
 def main():

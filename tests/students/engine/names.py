@@ -85,10 +85,10 @@ class Bursts(Node):
         super().__init__("bursts")
         publisher = self.create_publisher(Int32, "burst", 10)
         for depth in (2, 10):
-            self.create_subscription(Int32, "burst", lambda msg, d=depth: self.hear(d, msg), depth)
+            self.create_subscription(Int32, "burst", lambda msg, d=depth: self.on_message(d, msg), depth)
         self.create_timer(1.0, lambda: [publisher.publish(Int32(data=n)) for n in range(5)])
 
-    def hear(self, depth, msg):
+    def on_message(self, depth, msg):
         self.get_logger().info(f"{depth}: {msg.data}")
 
 
@@ -98,7 +98,7 @@ class Mismatch(Node):
     def __init__(self):
         super().__init__("mismatch")
         self.publisher = self.create_publisher(Int32, "data", qos_profile_sensor_data)
-        self.create_subscription(Int32, "data", lambda msg: self.get_logger().info("heard"), 10)
+        self.create_subscription(Int32, "data", lambda msg: self.get_logger().info("received"), 10)
         self.create_timer(1.0, lambda: self.publisher.publish(Int32()))
 
 
@@ -153,7 +153,7 @@ class Restless(Node):
     def change(self):
         if self.made is None:
             publisher = self.create_publisher(Int32, "now", 10)
-            subscription = self.create_subscription(Int32, "now", self.hear, 10)
+            subscription = self.create_subscription(Int32, "now", self.on_message, 10)
             self.made = publisher, subscription, self.create_timer(0.4, self.tick)
             return
         publisher, subscription, timer = self.made
@@ -165,8 +165,8 @@ class Restless(Node):
     def tick(self):
         self.made[0].publish(Int32(data=1))
 
-    def hear(self, msg):
-        self.get_logger().info("heard")
+    def on_message(self, msg):
+        self.get_logger().info("received")
 
 
 class Introspective(Node):
@@ -196,20 +196,20 @@ class Logs(Node):
         self.get_logger().warning("warning")
 
 
-class HearsLogs(Node):
-    """Hears what others log."""
+class ReceivesLogs(Node):
+    """Receives what others log."""
 
     def __init__(self):
-        super().__init__("hears_logs")
-        self.create_subscription(Log, "/rosout", self.hear, 10)
+        super().__init__("receives_logs")
+        self.create_subscription(Log, "/rosout", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         if msg.name != self.get_name():
             print(f"{msg.name}: {msg.msg}")
 
 
-class HearsPlaces(HearsLogs):
-    """Hears from where they do."""
+class ReceivesPlaces(ReceivesLogs):
+    """Receives from where they do."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         print(f"{msg.file} {msg.function} {msg.line}")

@@ -29,16 +29,16 @@ class Counter(Node):
             self.publisher.publish(Int32(data=self.count))
 
 
-class Hearer(Node):
+class Listener(Node):
     """Says what comes on /count."""
 
     qos = 1000
 
     def __init__(self):
-        super().__init__("hearer")
-        self.create_subscription(Int32, "count", self.hear, self.qos)
+        super().__init__("listener")
+        self.create_subscription(Int32, "count", self.on_message, self.qos)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.get_logger().info(str(msg.data))
 
 
@@ -48,8 +48,8 @@ class SloppyCounter(Counter):
     qos = BEST_EFFORT
 
 
-class SloppyHearer(Hearer):
-    """Hears what comes."""
+class SloppyListener(Listener):
+    """Receives what comes."""
 
     qos = BEST_EFFORT
 
@@ -78,7 +78,7 @@ class BriefCounter(Counter):
     qos = BRIEF
 
 
-class BriefHearer(Hearer):
+class BriefListener(Listener):
     """Wants nothing that is older than half a second."""
 
     qos = BRIEF
@@ -90,7 +90,7 @@ class LatchingCounter(Counter):
     qos, last = LATCHED, 5
 
 
-class LateHearer(Node):
+class LateListener(Node):
     """Listens from 2 s on."""
 
     def __init__(self):
@@ -99,9 +99,9 @@ class LateHearer(Node):
 
     def begin(self):
         self.timer.cancel()
-        self.create_subscription(Int32, "count", self.hear, LATCHED)
+        self.create_subscription(Int32, "count", self.on_message, LATCHED)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.get_logger().info(str(msg.data))
 
 
@@ -123,7 +123,7 @@ class KeepsAll(Node):
                 return
 
 
-class HearsAll(Hearer):
+class ReceivesAll(Listener):
     """Has room for all."""
 
     qos = ALL
@@ -151,7 +151,7 @@ def speaks_and_leaves():
 def listens_for_a_moment():
     """Listens until 0.15 s."""
     rclpy.init()
-    node = Hearer()
+    node = Listener()
     end = node.get_clock().now() + Duration(seconds=0.15)
     while node.get_clock().now() < end:
         rclpy.spin_once(node, timeout_sec=0.05)

@@ -71,9 +71,9 @@ class Script(Node):
     def rotate(self, turtle, theta):
         client = ActionClient(self, RotateAbsolute, f"{turtle}/rotate_absolute")
         client.wait_for_server()
-        client.send_goal_async(RotateAbsolute.Goal(theta=theta)).add_done_callback(self.hear)
+        client.send_goal_async(RotateAbsolute.Goal(theta=theta)).add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         self.goal = future.result()
         if self.goal.accepted:
             self.goal.get_result_async()

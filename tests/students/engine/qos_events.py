@@ -109,7 +109,7 @@ class Speaks(Says):
 
 
 class Listens(Says):
-    """Hears `count`, and says what there is to say of it but for the messages."""
+    """Receives `count`, and says what there is to say of it but for the messages."""
 
     profile = 10
 
@@ -122,7 +122,7 @@ class Listens(Says):
 
 
 class ListensOnBestEffort(Listens):
-    """Hears what comes."""
+    """Receives what comes."""
 
     profile = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -146,7 +146,7 @@ class Manual(Speaks):
 
 
 class SloppyManual(Speaks):
-    """Says so where nobody hears it."""
+    """Says so where nobody receives it."""
 
     profile, speaks, asserts = SLOPPY_BY_HAND, (1.5,), (1.8,)
 
@@ -238,10 +238,10 @@ class Sleeper(Node):
 
     def __init__(self):
         super().__init__("sleeper")
-        self.create_subscription(Int32, "count", self.hear, self.profile)
+        self.create_subscription(Int32, "count", self.on_message, self.profile)
 
-    def hear(self, msg):
-        self.get_logger().info(f"heard {msg.data}")
+    def on_message(self, msg):
+        self.get_logger().info(f"received {msg.data}")
         time.sleep(1.75)
 
 
@@ -256,8 +256,8 @@ def late():
     time.sleep(2.25)
     rclpy.init()
     node = Node("late")
-    hear = lambda msg: node.get_logger().info(f"heard {msg.data}")  # noqa: E731
-    node.create_subscription(Int32, "count", hear, BRIEF_LATCHED)
+    receive = lambda msg: node.get_logger().info(f"received {msg.data}")  # noqa: E731
+    node.create_subscription(Int32, "count", receive, BRIEF_LATCHED)
     rclpy.spin(node)
 
 

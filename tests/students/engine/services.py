@@ -245,12 +245,12 @@ class WatchesItself(Node):
             end.configure_introspection(
                 self.get_clock(), qos_profile_services_default, ServiceIntrospectionState.METADATA
             )
-        self.create_subscription(AddTwoInts.Event, "add/_service_event", self.hear, 10)
+        self.create_subscription(AddTwoInts.Event, "add/_service_event", self.on_message, 10)
         self.timer = self.create_timer(1.0, self.ask)
 
     def ask(self):
         self.timer.cancel()
         self.client.call_async(AddTwoInts.Request())
 
-    def hear(self, event):
+    def on_message(self, event):
         self.get_logger().info(str(event.info.event_type))

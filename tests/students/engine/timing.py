@@ -278,11 +278,11 @@ def knows_when_a_message_came():
     publisher = node.create_publisher(Header, "minutes", 10)
     node.create_timer(0.5, lambda: publisher.publish(Header(stamp=node.get_clock().now().to_msg())))
 
-    def hear(msg, information):
+    def on_message(msg, information):
         sent, came = information["source_timestamp"], information["received_timestamp"]
         node.get_logger().info(f"{msg.stamp.sec} {msg.stamp.nanosec} {sent} {came}")
 
-    node.create_subscription(Header, "minutes", hear, 10)
+    node.create_subscription(Header, "minutes", on_message, 10)
     rclpy.spin(node)
 
 

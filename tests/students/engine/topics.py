@@ -1,4 +1,4 @@
-"""Publishers and subscriptions of all kinds that do or don't hear each other."""
+"""Publishers and subscriptions of all kinds that do or don't receive each other."""
 
 from itertools import product
 
@@ -41,10 +41,10 @@ class EveryProfile(Node):
         self.timer = self.create_timer(1.0, self.speak)
 
     def listen(self, topic, who, profile):
-        def hear(message, information):
+        def on_message(message, information):
             self.get_logger().info(f"{who} on {topic}: {message.data}, {information}")
 
-        self.create_subscription(String, topic, hear, profile)
+        self.create_subscription(String, topic, on_message, profile)
 
     def speak(self):
         for out in self.outs:
@@ -58,18 +58,18 @@ class EveryProfile(Node):
 
 
 class ForgetsEnds(Node):
-    """Destroys a latched publisher before somebody comes who would hear it, and a subscription."""
+    """Destroys a latched publisher before somebody comes who would receive it, and a subscription."""
 
     def __init__(self):
         super().__init__("forgets_ends")
         self.latched = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.out = self.create_publisher(String, "chat", self.latched)
         self.other = self.create_publisher(String, "chat", self.latched)
-        self.listener = self.create_subscription(String, "chat", self.hear, 10)
+        self.listener = self.create_subscription(String, "chat", self.on_message, 10)
         self.create_timer(0.5, self.step)
         self.steps = 0
 
-    def hear(self, message):
+    def on_message(self, message):
         self.get_logger().info(message.data)
 
     def step(self):
@@ -82,7 +82,7 @@ class ForgetsEnds(Node):
             self.destroy_subscription(self.listener)
             self.destroy_publisher(self.out)
         elif self.steps == 3:
-            self.create_subscription(String, "chat", self.hear, self.latched)
+            self.create_subscription(String, "chat", self.on_message, self.latched)
 
 
 class Garbage(Node):
@@ -91,10 +91,10 @@ class Garbage(Node):
     def __init__(self):
         super().__init__("garbage")
         self.out = self.create_publisher(String, "chat", 10)
-        self.create_subscription(String, "chat", self.hear, 10)
+        self.create_subscription(String, "chat", self.on_message, 10)
         self.create_timer(1.0, self.speak)
 
-    def hear(self, message):
+    def on_message(self, message):
         self.get_logger().info(message.data)
 
     def speak(self):
@@ -132,33 +132,33 @@ class SaysItAtOnceAndLatches(SaysItAtOnce):
     profile = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-class Hears(Node):
+class Receives(Node):
     """Logs what is said on both topics."""
 
     profile = QoSProfile(depth=10)
 
     def __init__(self):
-        super().__init__("hears")
+        super().__init__("receives")
         for topic in ("words", "more_words"):
-            self.create_subscription(String, topic, self.hear, self.profile)
+            self.create_subscription(String, topic, self.on_message, self.profile)
 
-    def hear(self, message):
+    def on_message(self, message):
         self.get_logger().info(message.data)
 
 
-class HearsWhatIsLatched(Hears):
+class ReceivesWhatIsLatched(Receives):
     profile = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def both_in_one_program():
     rclpy.init()
     executor = SingleThreadedExecutor()
-    for node in (Hears(), SaysItAtOnce()):
+    for node in (Receives(), SaysItAtOnce()):
         executor.add_node(node)
     executor.spin()
 
 
-class LateHearer(Node):
+class LateListener(Node):
     """Begins to listen at 1 s."""
 
     def __init__(self):

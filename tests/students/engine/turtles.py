@@ -156,8 +156,8 @@ def meeting():
     rclpy.init()
     node, poses = Node("meeting"), {}
     for turtle in ("turtle1", "turtle2"):
-        hear = functools.partial(poses.__setitem__, turtle)
-        node.create_subscription(Pose, f"{turtle}/pose", hear, 1)
+        receive = functools.partial(poses.__setitem__, turtle)
+        node.create_subscription(Pose, f"{turtle}/pose", receive, 1)
     apart = math.inf
     while apart > 0.1:
         rclpy.spin_once(node)

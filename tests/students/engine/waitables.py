@@ -222,7 +222,7 @@ class Client(Node):
 
     def send(self):
         self.timer.cancel()
-        sent = self.client.send_goal_async(Fibonacci.Goal(order=5), feedback_callback=self.hear)
+        sent = self.client.send_goal_async(Fibonacci.Goal(order=5), feedback_callback=self.on_message)
         sent.add_done_callback(self.sent)
 
     def sent(self, done: Future):
@@ -230,7 +230,7 @@ class Client(Node):
         self.get_logger().info(f"accepted {self.goal.accepted}")
         self.timer = self.create_timer(1.0, self.stop)
 
-    def hear(self, message):
+    def on_message(self, message):
         self.get_logger().info(f"feedback {list(message.feedback.sequence)}")
 
     def stop(self):

@@ -19,10 +19,10 @@ class Patient(Node):
         self.buffer, self.waiting = Buffer(), []
         self.listener = TransformListener(self.buffer, self)
         self.publisher = self.create_publisher(PointStamped, "/found", 10)
-        self.create_subscription(PointStamped, "/detection", self.hear, 10)
+        self.create_subscription(PointStamped, "/detection", self.on_message, 10)
         self.create_timer(0.05, self.look)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.waiting.append(msg)
 
     def look(self):
@@ -42,9 +42,9 @@ class Awaiting(Patient):
         self.listener = TransformListener(self.buffer, self)
         self.publisher = self.create_publisher(PointStamped, "/found", 10)
         group = ReentrantCallbackGroup()
-        self.create_subscription(PointStamped, "/detection", self.hear, 10, callback_group=group)
+        self.create_subscription(PointStamped, "/detection", self.on_message, 10, callback_group=group)
 
-    async def hear(self, msg):
+    async def on_message(self, msg):
         found = await self.buffer.lookup_transform_async("map", "base_link", self.when(msg))
         moved = tf2_geometry_msgs.do_transform_point(msg, found)
         moved.header.stamp = msg.header.stamp
@@ -54,35 +54,36 @@ class Awaiting(Patient):
 class ByFutures(Patient):
     """A design of its own: the buffer's future is done when the transform has come."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         future = self.buffer.wait_for_transform_async("map", "base_link", self.when(msg))
         future.add_done_callback(lambda _: self.publisher.publish(self.buffer.transform(msg, "map")))
 
 
 def main_with_threads():
-    """Waits in the callback, while other threads hear."""
+    """Waits in the callback, while other threads receive."""
     rclpy.init()
     node = rclpy.create_node("patient")
     buffer = Buffer()
     node.listener = TransformListener(buffer, node)
     publisher = node.create_publisher(PointStamped, "/found", 10)
 
-    def hear(msg):
+    def on_message(msg):
         publisher.publish(buffer.transform(msg, "map", timeout=Duration(seconds=1)))
 
-    node.create_subscription(PointStamped, "/detection", hear, 10, callback_group=ReentrantCallbackGroup())
+    group = ReentrantCallbackGroup()
+    node.create_subscription(PointStamped, "/detection", on_message, 10, callback_group=group)
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     executor.spin()
 
 
 class AsksAtOnce(Patient):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.publisher.publish(self.buffer.transform(msg, "map"))
 
 
 class GivesUp(Patient):
-    def hear(self, msg):
+    def on_message(self, msg):
         try:
             self.publisher.publish(self.buffer.transform(msg, "map"))
         except TransformException as error:
@@ -90,7 +91,7 @@ class GivesUp(Patient):
 
 
 class Newest(Patient):
-    def hear(self, msg):
+    def on_message(self, msg):
         found = self.buffer.lookup_transform("map", "base_link", Time())
         moved = tf2_geometry_msgs.do_transform_point(msg, found)
         moved.header.stamp = msg.header.stamp
@@ -98,7 +99,7 @@ class Newest(Patient):
 
 
 class WaitsInTheCallback(Patient):
-    def hear(self, msg):
+    def on_message(self, msg):
         try:
             self.publisher.publish(self.buffer.transform(msg, "map", timeout=Duration(seconds=1)))
         except TransformException as error:
@@ -106,7 +107,7 @@ class WaitsInTheCallback(Patient):
 
 
 class OnlyTheLast(Patient):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.waiting = [msg]
 
 
@@ -141,16 +142,16 @@ class StampedNow(Patient):
 class Deaf(Patient):
     def __init__(self):
         Node.__init__(self, "patient")
-        self.create_subscription(PointStamped, "/detection", self.hear, 10)
+        self.create_subscription(PointStamped, "/detection", self.on_message, 10)
 
-    def hear(self, msg):
-        self.get_logger().info("heard")
+    def on_message(self, msg):
+        self.get_logger().info("received")
 
 
 class Guesses(Patient):
     """Knows how the robot drove up to now, and where that would have led it."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         newest = self.buffer.lookup_transform("map", "base_link", Time())
         before = self.buffer.lookup_transform("map", "base_link", self.when(newest) - Duration(seconds=0.2))
         steps = (self.when(msg) - self.when(newest)).nanoseconds / 0.2e9

@@ -118,7 +118,7 @@ class SaysNothing(Placer):
         self.get_logger().warning(str(error))
 
 
-class HearsNoFrames(Placer):
+class ReceivesNoFrames(Placer):
     def listen(self):
         """Leaves the buffer empty."""
 

@@ -21,9 +21,9 @@ class Mount(Node):
     def __init__(self):
         super().__init__("mount")
         self.broadcaster = self.kind(self)
-        self.create_subscription(Pose2D, "/mounting", self.hear, LATCHED)
+        self.create_subscription(Pose2D, "/mounting", self.on_message, LATCHED)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         sent = TransformStamped()
         sent.header.stamp = self.get_clock().now().to_msg()
         sent.header.frame_id, sent.child_frame_id = self.parent, self.child
@@ -49,7 +49,7 @@ def main_with_a_publisher():
     node = rclpy.create_node("mount")
     publisher = node.create_publisher(TFMessage, "tf_static", LATCHED)
 
-    def hear(msg):
+    def on_message(msg):
         sent = TransformStamped(child_frame_id="base_scan")
         sent.header.frame_id = "base_link"
         sent.transform.translation.x, sent.transform.translation.y = msg.x, msg.y
@@ -59,7 +59,7 @@ def main_with_a_publisher():
         )
         publisher.publish(TFMessage(transforms=[sent]))
 
-    node.create_subscription(Pose2D, "mounting", hear, LATCHED)
+    node.create_subscription(Pose2D, "mounting", on_message, LATCHED)
     rclpy.spin(node)
 
 
@@ -121,7 +121,7 @@ class NotKept(Mount):
     def __init__(self):
         Node.__init__(self, "mount")
         self.broadcaster = StaticTransformBroadcaster(self, qos=10)
-        self.create_subscription(Pose2D, "/mounting", self.hear, LATCHED)
+        self.create_subscription(Pose2D, "/mounting", self.on_message, LATCHED)
 
 
 class AllZeros(Mount):

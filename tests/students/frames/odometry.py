@@ -16,12 +16,12 @@ class Broadcaster(Node):
     def __init__(self):
         super().__init__("broadcaster")
         self.broadcaster = self.made()
-        self.create_subscription(Odometry, "/wheels/odom", self.hear, 10)
+        self.create_subscription(Odometry, "/wheels/odom", self.on_message, 10)
 
     def made(self):
         return TransformBroadcaster(self)
 
-    def hear(self, odom):
+    def on_message(self, odom):
         self.broadcaster.sendTransform(self.frame(odom))
 
     def frame(self, odom):
@@ -50,14 +50,14 @@ def main_with_a_publisher():
     node = rclpy.create_node("broadcaster")
     publisher = node.create_publisher(TFMessage, "tf", 100)
 
-    def hear(odom):
+    def on_message(odom):
         sent = TransformStamped(header=odom.header, child_frame_id="base_link")
         sent.transform.translation.x = odom.pose.pose.position.x
         sent.transform.translation.y = odom.pose.pose.position.y
         sent.transform.rotation = odom.pose.pose.orientation
         publisher.publish(TFMessage(transforms=[sent]))
 
-    node.create_subscription(Odometry, "wheels/odom", hear, 10)
+    node.create_subscription(Odometry, "wheels/odom", on_message, 10)
     rclpy.spin(node)
 
 
@@ -111,7 +111,7 @@ class ByTimer(Broadcaster):
         super().__init__()
         self.create_timer(0.25, self.send)
 
-    def hear(self, odom):
+    def on_message(self, odom):
         self.last = odom
 
     def send(self):
@@ -125,9 +125,9 @@ class Static(Broadcaster):
 
 
 class Twice(Broadcaster):
-    def hear(self, odom):
-        super().hear(odom)
-        super().hear(odom)
+    def on_message(self, odom):
+        super().on_message(odom)
+        super().on_message(odom)
 
 
 class FirstOnly(Broadcaster):
@@ -135,9 +135,9 @@ class FirstOnly(Broadcaster):
 
     sent = False
 
-    def hear(self, odom):
+    def on_message(self, odom):
         if not self.sent:
-            super().hear(odom)
+            super().on_message(odom)
         self.sent = True
 
 

@@ -8,7 +8,7 @@ from std_msgs.msg import Float64
 
 
 class Balancer(Node):
-    """Pushes each time it hears the joints.
+    """Pushes each time it receives the joints.
 
     The gains are a linear-quadratic regulator's for the figures of the world cart_pole at 100 Hz, with
     weights 1 on the place, 10 on the angle and 0.005 on the force.
@@ -41,7 +41,7 @@ class Steadier(Balancer):
 
 
 class Timed(Balancer):
-    """Keeps what it heard last and pushes on a timer of 100 Hz."""
+    """Keeps what it received last and pushes on a timer of 100 Hz."""
 
     period = 0.01
 

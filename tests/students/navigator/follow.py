@@ -90,7 +90,7 @@ def follower_main():
 
 
 class SlowInCurves(Follower):
-    """A controller that hears /odom for its speed, and slows down in curves."""
+    """A controller that receives /odom for its speed, and slows down in curves."""
 
     def __init__(self):
         super().__init__()

@@ -18,9 +18,9 @@ class Stopper(Node):
         super().__init__("stopper")
         self.declare_parameter("gap", 0.3)  # m
         self.commands = self.create_publisher(Twist, "drive", 10)
-        self.create_subscription(LaserScan, "scan", self.hear, qos_profile_sensor_data)
+        self.create_subscription(LaserScan, "scan", self.on_message, qos_profile_sensor_data)
 
-    def hear(self, scan):
+    def on_message(self, scan):
         ahead = [r for r in scan.ranges[:10] + scan.ranges[-10:] if math.isfinite(r)]
         distance = min(ahead, default=9.0) - self.get_parameter("gap").value
         command = Twist()

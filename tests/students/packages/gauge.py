@@ -15,9 +15,9 @@ class Gauge(Node):
     def __init__(self):
         super().__init__("gauge")
         self.publisher = self.create_publisher(Float32, "celsius", 10)
-        self.create_subscription(Float32, "volts", self.hear, 10)
+        self.create_subscription(Float32, "volts", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         value = celsius(msg.data)
         if value is not None:
             self.publisher.publish(Float32(data=value))

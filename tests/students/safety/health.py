@@ -22,7 +22,7 @@ class Health(Node):
 
     def __init__(self):
         super().__init__("health")
-        self.numbers, self.heard = {}, {}
+        self.numbers, self.received = {}, {}
         self.publisher = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self.create_subscription(BatteryState, "/battery_state", self.on_battery, 10)
         self.create_subscription(Temperature, "/motor_temperature", self.on_motor, 10)
@@ -38,10 +38,10 @@ class Health(Node):
         self.keep("motor", msg.temperature)
 
     def keep(self, name, number):
-        self.numbers[name], self.heard[name] = number, self.now()
+        self.numbers[name], self.received[name] = number, self.now()
 
     def is_stale(self, name):
-        return name not in self.heard or self.now() - self.heard[name] > 1.0
+        return name not in self.received or self.now() - self.received[name] > 1.0
 
     def level(self, name):
         if self.is_stale(name):
@@ -100,14 +100,14 @@ class NeverStale(Health):
     """The last number is good for ever."""
 
     def is_stale(self, name):
-        return name not in self.heard
+        return name not in self.received
 
 
 class StaleTooSoon(Health):
     """0.15 s of silence, between two messages, are enough for it."""
 
     def is_stale(self, name):
-        return name not in self.heard or self.now() - self.heard[name] > 1e-3
+        return name not in self.received or self.now() - self.received[name] > 1e-3
 
 
 class BetterOneFirst(Health):

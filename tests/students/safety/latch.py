@@ -14,7 +14,7 @@ class Stop(Node):
 
     def __init__(self):
         super().__init__("stop")
-        self.pressed, self.stopped, self.heard = False, False, self.now()
+        self.pressed, self.stopped, self.received = False, False, self.now()
         self.commands = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_subscription(Twist, "/cmd_vel_raw", self.drive, 10)
         self.create_subscription(Bool, "/emergency", self.press, 10)
@@ -28,7 +28,7 @@ class Stop(Node):
         self.commands.publish(Twist() if self.stopped else msg)
 
     def press(self, msg):
-        self.pressed, self.heard = msg.data, self.now()
+        self.pressed, self.received = msg.data, self.now()
         if self.pressed:
             self.stop()
 
@@ -41,7 +41,7 @@ class Stop(Node):
         self.commands.publish(Twist())
 
     def is_silent(self):
-        return self.now() - self.heard > self.patience
+        return self.now() - self.received > self.patience
 
     def reset(self, request, response):
         response.success = not self.pressed and not self.is_silent()
@@ -216,7 +216,7 @@ class LetsGoWithTheCable(Stop):
         self.commands.publish(Twist() if self.stopped or self.silent else msg)
 
     def watch(self):
-        self.silent = self.now() - self.heard > self.patience
+        self.silent = self.now() - self.received > self.patience
 
 
 class NeverDrives(Stop):

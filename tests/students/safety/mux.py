@@ -13,25 +13,25 @@ class Mux(Node):
 
     def __init__(self):
         super().__init__("mux")
-        self.heard = {}
+        self.received = {}
         self.commands = self.create_publisher(Twist, "/cmd_vel", 10)
         for topic in self.topics:
-            self.create_subscription(Twist, topic, lambda msg, topic=topic: self.hear(topic, msg), 10)
+            self.create_subscription(Twist, topic, lambda msg, topic=topic: self.on_message(topic, msg), 10)
         self.create_timer(0.05, self.choose)
 
     def now(self):
         return self.get_clock().now().nanoseconds / 1e9
 
-    def hear(self, topic, msg):
-        self.heard[topic] = self.now(), msg
+    def on_message(self, topic, msg):
+        self.received[topic] = self.now(), msg
 
     def is_young(self, topic):
-        return topic in self.heard and self.now() - self.heard[topic][0] < self.patience
+        return topic in self.received and self.now() - self.received[topic][0] < self.patience
 
     def choose(self):
         for topic in self.topics:
             if self.is_young(topic):
-                self.commands.publish(self.heard[topic][1])
+                self.commands.publish(self.received[topic][1])
                 return
         self.commands.publish(Twist())
 
@@ -39,8 +39,8 @@ class Mux(Node):
 class PassesOn(Mux):
     """A design of its own: without a timer: it passes what no higher priority has blocked lately."""
 
-    def hear(self, topic, msg):
-        super().hear(topic, msg)
+    def on_message(self, topic, msg):
+        super().on_message(topic, msg)
         if topic == self.topics[0] or not self.is_young(self.topics[0]):
             self.commands.publish(msg)
 
@@ -91,7 +91,7 @@ class SaysBoth(Mux):
 
     def choose(self):
         if self.is_young(self.topics[1]):
-            self.commands.publish(self.heard[self.topics[1]][1])
+            self.commands.publish(self.received[self.topics[1]][1])
         super().choose()
 
 
@@ -99,14 +99,14 @@ class NeverTimesOut(Mux):
     """What somebody said holds for ever."""
 
     def is_young(self, topic):
-        return topic in self.heard
+        return topic in self.received
 
 
 class OnlyTheJoystickTimesOut(Mux):
     """The navigator's last command is sent for ever."""
 
     def is_young(self, topic):
-        return topic in self.heard and (topic == self.topics[1] or super().is_young(topic))
+        return topic in self.received and (topic == self.topics[1] or super().is_young(topic))
 
 
 class OldCommandComesBack(Mux):
@@ -115,9 +115,9 @@ class OldCommandComesBack(Mux):
     def choose(self):
         joy, nav = self.topics
         if self.is_young(joy):
-            self.commands.publish(self.heard[joy][1])
-        elif nav in self.heard and self.now() - max(said for said, _ in self.heard.values()) < 3.0:
-            self.commands.publish(self.heard[nav][1])
+            self.commands.publish(self.received[joy][1])
+        elif nav in self.received and self.now() - max(said for said, _ in self.received.values()) < 3.0:
+            self.commands.publish(self.received[nav][1])
         else:
             self.commands.publish(Twist())
 
@@ -133,14 +133,14 @@ class WhoSpokeLast(Mux):
 
     def choose(self):
         young = [topic for topic in self.topics if self.is_young(topic)]
-        topic = max(young, key=lambda topic: self.heard[topic][0], default=None)
-        self.commands.publish(self.heard[topic][1] if topic else Twist())
+        topic = max(young, key=lambda topic: self.received[topic][0], default=None)
+        self.commands.publish(self.received[topic][1] if topic else Twist())
 
 
 class PassesAll(Mux):
     """No choice at all."""
 
-    def hear(self, topic, msg):
+    def on_message(self, topic, msg):
         self.commands.publish(msg)
 
     def choose(self):
@@ -150,9 +150,9 @@ class PassesAll(Mux):
 class ZeroIsNothing(Mux):
     """A joystick that says 0 counts as one that says nothing."""
 
-    def hear(self, topic, msg):
+    def on_message(self, topic, msg):
         if topic != self.topics[0] or msg != Twist():
-            super().hear(topic, msg)
+            super().on_message(topic, msg)
 
 
 class HoldsTheJoystickLong(Mux):
@@ -167,18 +167,18 @@ class AddsBoth(Mux):
     def choose(self):
         msg = Twist()
         for topic in filter(self.is_young, self.topics):
-            msg.linear.x += self.heard[topic][1].linear.x
-            msg.angular.z += self.heard[topic][1].angular.z
+            msg.linear.x += self.received[topic][1].linear.x
+            msg.angular.z += self.received[topic][1].angular.z
         self.commands.publish(msg)
 
 
 class ForgetsTheTurn(Mux):
     """Copies one number only."""
 
-    def hear(self, topic, msg):
+    def on_message(self, topic, msg):
         short = Twist()
         short.linear.x = msg.linear.x
-        super().hear(topic, short)
+        super().on_message(topic, short)
 
 
 class OneDriver(Mux):

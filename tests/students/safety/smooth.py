@@ -16,9 +16,9 @@ class Limiter(Node):
         super().__init__("limiter")
         self.last = [0.0, 0.0]
         self.commands = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(Twist, "/cmd_vel_raw", self.hear, 10)
+        self.create_subscription(Twist, "/cmd_vel_raw", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         wishes = msg.linear.x, msg.angular.z
         self.last = [
             self.next(wish, last, *limits)
@@ -132,9 +132,9 @@ class LetsNonsenseThrough(Limiter):
 class KeepsOnWithNonsense(Limiter):
     """A bad wish is left out, and what was sent last is sent again."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         if math.isfinite(msg.linear.x) and math.isfinite(msg.angular.z):
-            super().hear(msg)
+            super().on_message(msg)
         else:
             answer = Twist()
             answer.linear.x, answer.angular.z = self.last
@@ -144,9 +144,9 @@ class KeepsOnWithNonsense(Limiter):
 class SaysNothingToNonsense(Limiter):
     """Leaves bad wishes unanswered."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         if math.isfinite(msg.linear.x) and math.isfinite(msg.angular.z):
-            super().hear(msg)
+            super().on_message(msg)
 
 
 class OneStepOnly(Limiter):

@@ -263,7 +263,7 @@ class ForgetsTheTurn(Guard):
 
 
 class ListensToTheRobotsTopic(Guard):
-    """Hears itself in place of the driver."""
+    """Receives itself in place of the driver."""
 
     raw = "/cmd_vel"
 

@@ -171,7 +171,7 @@ class IgnoresArmed(Driver):
 
 
 class DrivesInTheService(Driver):
-    """Stays in the callback for as long as it is armed: it can't hear that it should stop."""
+    """Stays in the callback for as long as it is armed: it can't receive that it should stop."""
 
     def arm(self, request, response):
         self.armed = request.data

@@ -21,10 +21,10 @@ class Gyro(Node):
         self.readings = deque(maxlen=50)
         self.bias = 0.0
         self.publisher = self.create_publisher(Float64, "/gyro/rate", 10)
-        self.create_subscription(Float64, "/gyro/raw", self.hear, 10)
+        self.create_subscription(Float64, "/gyro/raw", self.on_message, 10)
         self.create_service(self.type, self.service, self.calibrate)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.readings.append(msg.data)
         self.publisher.publish(Float64(data=msg.data - self.bias))
 
@@ -146,7 +146,7 @@ class BiasNotKept(Gyro):
 
 
 class AddsTheBias(Gyro):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.readings.append(msg.data)
         self.publisher.publish(Float64(data=msg.data + self.bias))
 
@@ -186,7 +186,7 @@ class SumInPlaceOfMean(Gyro):
 class SubtractsFromTheCorrected(Gyro):
     """Calibrates with what it has corrected already: the second time it finds only what has changed."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.readings.append(msg.data - self.bias)
         self.publisher.publish(Float64(data=msg.data - self.bias))
 
@@ -199,14 +199,14 @@ class NumberForMessage(Gyro):
 
 
 class PublishesNothing(Gyro):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.readings.append(msg.data)
 
 
 class AlwaysZero(Gyro):
     """Knows that a robot at rest doesn't turn."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.readings.append(msg.data)
         self.publisher.publish(Float64(data=0.0))
 

@@ -32,9 +32,9 @@ class Visitor(Node):
     def ask(self):
         if self.client.service_is_ready():
             future = self.client.call_async(self.type.Request())
-            future.add_done_callback(self.hear)
+            future.add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         answer = future.result()
         if answer.success:
             self.speed = 0.3
@@ -121,9 +121,9 @@ class VisitorWithOneShotTimers(Visitor):
     def ask(self):
         if self.client.wait_for_service(timeout_sec=0.0):
             self.timer.cancel()
-            self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
+            self.client.call_async(Trigger.Request()).add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         if future.result().success:
             self.speed = 0.3
             return
@@ -145,14 +145,14 @@ class AsksOnceAtTheStart(Visitor):
     def __init__(self):
         super().__init__()
         self.timer.cancel()
-        self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_response)
 
 
 class AsksWithoutLooking(Visitor):
     """It comes in at last, and its first questions are lost."""
 
     def ask(self):
-        self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_response)
 
 
 class ReadyWithoutBrackets(Visitor):
@@ -160,7 +160,7 @@ class ReadyWithoutBrackets(Visitor):
 
     def ask(self):
         if self.client.service_is_ready:
-            self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
+            self.client.call_async(Trigger.Request()).add_done_callback(self.on_response)
 
 
 class WaitsInInit(Visitor):
@@ -191,7 +191,7 @@ class SpinsInTheCallback(Visitor):
         if self.client.service_is_ready():
             future = self.client.call_async(Trigger.Request())
             rclpy.spin_until_future_complete(self, future)
-            self.hear(future)
+            self.on_response(future)
 
 
 class SleepsUntilDone(Visitor):
@@ -202,7 +202,7 @@ class SleepsUntilDone(Visitor):
             future = self.client.call_async(Trigger.Request())
             while not future.done():
                 time.sleep(0.1)
-            self.hear(future)
+            self.on_response(future)
 
 
 class AwaitsInOneGroup(Visitor):
@@ -215,7 +215,7 @@ class AwaitsInOneGroup(Visitor):
 class LooksAtTheResultAtOnce(Visitor):
     def ask(self):
         if self.client.service_is_ready():
-            self.hear(self.client.call_async(Trigger.Request()))
+            self.on_response(self.client.call_async(Trigger.Request()))
 
 
 class NoDoneCallback(Visitor):
@@ -227,61 +227,61 @@ class NoDoneCallback(Visitor):
 class IgnoresSuccess(Visitor):
     """Any answer is good enough for it."""
 
-    def hear(self, future):
+    def on_response(self, future):
         self.speed = 0.3
         self.timer.cancel()
 
 
 class InfoForWarning(Visitor):
-    def hear(self, future):
+    def on_response(self, future):
         if future.result().success:
-            super().hear(future)
+            super().on_response(future)
         else:
             self.get_logger().info(future.result().message)
 
 
 class WarnsWithoutTheMessage(Visitor):
-    def hear(self, future):
+    def on_response(self, future):
         if future.result().success:
-            super().hear(future)
+            super().on_response(future)
         else:
             self.get_logger().warning("The door is closed.")
 
 
 class AsksAgainAtOnce(Visitor):
-    def hear(self, future):
-        super().hear(future)
+    def on_response(self, future):
+        super().on_response(future)
         if not future.result().success:
             self.ask()
 
 
 class GivesUp(Visitor):
-    def hear(self, future):
-        super().hear(future)
+    def on_response(self, future):
+        super().on_response(future)
         self.timer.cancel()
 
 
 class NeverStopsAsking(Visitor):
-    def hear(self, future):
+    def on_response(self, future):
         if future.result().success:
             self.speed = 0.3
         else:
-            super().hear(future)
+            super().on_response(future)
 
 
 class StaysOutside(Visitor):
-    def hear(self, future):
-        super().hear(future)
+    def on_response(self, future):
+        super().on_response(future)
         self.speed = 0.0
 
 
-class HearWithoutFuture(Visitor):
-    def hear(self):
+class ReceiveWithoutFuture(Visitor):
+    def on_message(self):
         pass
 
 
 class ForgetsResult(Visitor):
-    def hear(self, future):
+    def on_response(self, future):
         if future.success:
             self.speed = 0.3
 
@@ -289,7 +289,7 @@ class ForgetsResult(Visitor):
 class AsksWithTheClass(Visitor):
     def ask(self):
         if self.client.service_is_ready():
-            self.client.call_async(Trigger.Request).add_done_callback(self.hear)
+            self.client.call_async(Trigger.Request).add_done_callback(self.on_response)
 
 
 class AsksBeforeTheAnswer(Visitor):

@@ -197,9 +197,9 @@ class ForgetsToPublish(Odometer):
 class SleepsInTheDoneCallback(Odometer):
     def look(self):
         future = self.client.call_async(self.question())
-        future.add_done_callback(self.hear)
+        future.add_done_callback(self.on_response)
 
-    def hear(self, future):
+    def on_response(self, future):
         self.say(future.result())
         time.sleep(0.4)
 

@@ -27,9 +27,9 @@ class Doctor(Node):
     def __init__(self):
         super().__init__("doctor")
         self.publisher = self.create_publisher(String, "/diagnosis", 10)
-        self.create_subscription(String, "/complaint", self.hear, 10)
+        self.create_subscription(String, "/complaint", self.on_message, 10)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.publisher.publish(String(data=f"{msg.data}: {self.examine(msg.data)}"))
 
     def set(self, end, name, value):
@@ -192,14 +192,14 @@ class SetsWhatIsSet(Doctor):
 
 
 class SilentForNobody(Doctor):
-    def hear(self, msg):
+    def on_message(self, msg):
         word = self.examine(msg.data)
         if word != "nobody":
             self.publisher.publish(String(data=f"{msg.data}: {word}"))
 
 
 class CapitalLetters(Doctor):
-    def hear(self, msg):
+    def on_message(self, msg):
         self.publisher.publish(String(data=f"{msg.data}: {self.examine(msg.data).upper()}"))
 
 
@@ -209,7 +209,7 @@ class MuteForAll(Doctor):
 
 
 class SaysAllWords(Doctor):
-    def hear(self, msg):
+    def on_message(self, msg):
         for word in ("name", "nobody", "reliability", "durability", "deadline", "mute"):
             self.publisher.publish(String(data=f"{msg.data}: {word}"))
 
@@ -225,7 +225,7 @@ class ChangesEverything(Doctor):
 
 
 class PublishesInItsPlace(Doctor):
-    """Says something on the topic, so that the display hears anything at all."""
+    """Says something on the topic, so that the display receives anything at all."""
 
     mends = False
 
@@ -235,11 +235,11 @@ class PublishesInItsPlace(Doctor):
         return super().examine(topic)
 
 
-class HearsNothing(Doctor):
+class ReceivesNothing(Doctor):
     def __init__(self):
         Node.__init__(self, "doctor")
         self.publisher = self.create_publisher(String, "/diagnosis", 10)
-        self.create_subscription(String, "/calls", self.hear, 10)
+        self.create_subscription(String, "/calls", self.on_message, 10)
 
 
 class TriesOneAfterTheOther(Doctor):
@@ -247,11 +247,11 @@ class TriesOneAfterTheOther(Doctor):
 
     def __init__(self):
         super().__init__()
-        self.hears, self.topic, self.tries, self.word = set(), "", [], ""
-        self.create_subscription(String, "/heard", lambda msg: self.hears.add(msg.data.split()[0]), 10)
+        self.receives, self.topic, self.tries, self.word = set(), "", [], ""
+        self.create_subscription(String, "/received", lambda msg: self.receives.add(msg.data.split()[0]), 10)
         self.create_timer(0.15, self.attempt)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.topic, self.word, self.tries = msg.data, "", []
         word = self.examine(msg.data)
         if not self.tries:
@@ -265,7 +265,7 @@ class TriesOneAfterTheOther(Doctor):
         return "not known yet"
 
     def attempt(self):
-        if self.word and self.topic in self.hears:
+        if self.word and self.topic in self.receives:
             self.publisher.publish(String(data=f"{self.topic}: {self.word}"))
             self.tries, self.word = [], ""
         elif self.tries:

@@ -117,7 +117,7 @@ class OneTopicOnly(Reader):
         return super().names("/question")
 
 
-class HearsNothing(Reader):
+class ReceivesNothing(Reader):
     def __init__(self):
         Node.__init__(self, "reader")
         self.publisher = self.create_publisher(String, "/answer", 10)

@@ -23,9 +23,9 @@ class Driver(Node):
     def listen(self):
         qos = QoSProfile(depth=1, deadline=Duration(seconds=self.deadline))
         events = SubscriptionEventCallbacks(deadline=self.too_late)
-        self.create_subscription(Twist, "/joystick", self.hear, qos, event_callbacks=events)
+        self.create_subscription(Twist, "/joystick", self.on_message, qos, event_callbacks=events)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.command = msg
 
     def too_late(self, event):
@@ -40,8 +40,8 @@ class AtOnce(Driver):
 
     deadline = 0.1
 
-    def hear(self, msg):
-        super().hear(msg)
+    def on_message(self, msg):
+        super().on_message(msg)
         self.repeat()
 
 
@@ -57,7 +57,7 @@ class BestEffort(Driver):
         qos.deadline = Duration(nanoseconds=250_000_000)
         events = SubscriptionEventCallbacks()
         events.deadline = lambda event: self.too_late(event)
-        self.create_subscription(Twist, "/joystick", self.hear, qos, event_callbacks=events)
+        self.create_subscription(Twist, "/joystick", self.on_message, qos, event_callbacks=events)
 
 
 def main_without_a_class():
@@ -117,12 +117,12 @@ class NoCallback(Driver):
 
     def listen(self):
         qos = QoSProfile(depth=1, deadline=Duration(seconds=self.deadline))
-        self.create_subscription(Twist, "/joystick", self.hear, qos)
+        self.create_subscription(Twist, "/joystick", self.on_message, qos)
 
 
 class NoDeadline(Driver):
     def listen(self):
-        self.create_subscription(Twist, "/joystick", self.hear, 10)
+        self.create_subscription(Twist, "/joystick", self.on_message, 10)
 
 
 class AsksTooMuch(Driver):
@@ -168,9 +168,9 @@ class NeverGoesOn(Driver):
         super().too_late(event)
         self.stopped = True
 
-    def hear(self, msg):
+    def on_message(self, msg):
         if not self.stopped:
-            super().hear(msg)
+            super().on_message(msg)
 
 
 class AlwaysStops(Driver):
@@ -185,24 +185,24 @@ class OneMessageLate(Driver):
         self.waiting = []
         super().__init__()
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.waiting.append(msg)
         if len(self.waiting) > 10:
-            super().hear(self.waiting.pop(0))
+            super().on_message(self.waiting.pop(0))
 
 
 class OwnDriver(Driver):
-    """Hears another topic, and drives on its own."""
+    """Receives another topic, and drives on its own."""
 
     def listen(self):
-        self.create_subscription(Twist, "/gamepad", self.hear, 10)
+        self.create_subscription(Twist, "/gamepad", self.on_message, 10)
         self.command.linear.x = 0.2
 
 
 class Relay(Driver):
-    """Passes on what it hears, and when it hears nothing, nothing; the robot stops by itself, later."""
+    """Passes on what it receives, and when it receives nothing, nothing; the robot stops by itself, later."""
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.publisher.publish(msg)
 
     def repeat(self):
@@ -212,19 +212,19 @@ class Relay(Driver):
 class OwnWatch(Driver):
     """Looks at the clock itself, and asks ROS for nothing."""
 
-    heard = 0.0
+    received = 0.0
 
     def listen(self):
-        self.create_subscription(Twist, "/joystick", self.hear, 10)
+        self.create_subscription(Twist, "/joystick", self.on_message, 10)
 
     def now(self):
         return self.get_clock().now().nanoseconds / 1e9
 
-    def hear(self, msg):
-        super().hear(msg)
-        self.heard = self.now()
+    def on_message(self, msg):
+        super().on_message(msg)
+        self.received = self.now()
 
     def repeat(self):
-        if self.now() - self.heard > 0.2:
+        if self.now() - self.received > 0.2:
             self.command = Twist()
         super().repeat()

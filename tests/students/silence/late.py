@@ -12,12 +12,12 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 class Surveyor(Node):
     """As one would write it; the wrong ones change one thing each."""
 
-    hearing, telling = LATCHED, LATCHED
+    receiving, telling = LATCHED, LATCHED
 
     def __init__(self):
         super().__init__("surveyor")
         self.publisher = self.create_publisher(Int32, "/free", self.telling)
-        self.create_subscription(OccupancyGrid, "/map", self.on_map, self.hearing)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, self.receiving)
 
     def on_map(self, msg):
         self.publisher.publish(Int32(data=self.count(list(msg.data))))
@@ -27,7 +27,7 @@ class Surveyor(Node):
 
 
 class WrittenOut(Surveyor):
-    hearing = QoSProfile(
+    receiving = QoSProfile(
         depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.RELIABLE
     )
 
@@ -53,19 +53,19 @@ def main_without_a_class():
     node = rclpy.create_node("surveyor")
     publisher = node.create_publisher(Int32, "free", LATCHED)
 
-    def hear(grid):
+    def on_message(grid):
         publisher.publish(Int32(data=list(grid.data).count(0)))
 
-    node.create_subscription(OccupancyGrid, "map", hear, LATCHED)
+    node.create_subscription(OccupancyGrid, "map", on_message, LATCHED)
     rclpy.spin(node)
 
 
 class VolatileEars(Surveyor):
-    hearing = 10
+    receiving = 10
 
 
 class BestEffortEars(Surveyor):
-    hearing = QoSProfile(
+    receiving = QoSProfile(
         depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.BEST_EFFORT
     )
 
@@ -85,7 +85,7 @@ class DeepMouth(Surveyor):
 
 
 class SaysItAgainAndAgain(Surveyor):
-    """The poor way: with a timer, everybody hears it some time."""
+    """The poor way: with a timer, everybody receives it some time."""
 
     last, telling = None, 10
 

@@ -18,9 +18,9 @@ class Counter(Node):
         super().__init__("counter")
         self.missed, self.before = 0, None
         self.publisher = self.create_publisher(Int32, "/missed", 10)
-        self.create_subscription(LaserScan, "/scan", self.hear, self.qos)
+        self.create_subscription(LaserScan, "/scan", self.on_message, self.qos)
 
-    def hear(self, scan):
+    def on_message(self, scan):
         now = self.when(scan)
         if self.before is not None:
             self.missed += self.lost(now - self.before, scan)
@@ -48,7 +48,7 @@ class FromTheFirst(Counter):
 
     first, came = None, 0
 
-    def hear(self, scan):
+    def on_message(self, scan):
         now = self.when(scan)
         self.first = now if self.first is None else self.first
         self.came += 1
@@ -62,13 +62,13 @@ def main_without_a_class():
     publisher = node.create_publisher(Int32, "/missed", 10)
     stamps, missed = [], []
 
-    def hear(scan):
+    def on_message(scan):
         stamps.append(Time.from_msg(scan.header.stamp))
         if len(stamps) > 1:
             missed.append(round((stamps[-1] - stamps[-2]).nanoseconds * 1e-9 / scan.scan_time) - 1)
         publisher.publish(Int32(data=sum(missed)))
 
-    node.create_subscription(LaserScan, "/scan", hear, qos_profile_sensor_data)
+    node.create_subscription(LaserScan, "/scan", on_message, qos_profile_sensor_data)
     rclpy.spin(node)
 
 
@@ -113,9 +113,9 @@ class TenATime(Counter):
 
 
 class OnlyTheLastGap(Counter):
-    def hear(self, scan):
+    def on_message(self, scan):
         self.missed = 0
-        super().hear(scan)
+        super().on_message(scan)
 
 
 class AlwaysZero(Counter):
@@ -124,10 +124,10 @@ class AlwaysZero(Counter):
 
 
 class OnlyWhenLost(Counter):
-    def hear(self, scan):
+    def on_message(self, scan):
         before = self.missed
         publisher, self.publisher = self.publisher, self
-        super().hear(scan)
+        super().on_message(scan)
         self.publisher = publisher
         if self.missed > before:
             publisher.publish(Int32(data=self.missed))
@@ -153,9 +153,9 @@ class SaysItLater(Counter):
         super().__init__()
         self.time = self.get_clock().now() + Duration(seconds=5)
 
-    def hear(self, scan):
+    def on_message(self, scan):
         publisher, self.publisher = self.publisher, self
-        super().hear(scan)
+        super().on_message(scan)
         self.publisher = publisher
         shown = self.missed if self.get_clock().now() > self.time else 0
         publisher.publish(Int32(data=shown))
@@ -183,13 +183,13 @@ class OtherTopic(Counter):
         Node.__init__(self, "counter")
         self.missed, self.before = 0, None
         self.publisher = self.create_publisher(Int32, "/missed", 10)
-        self.create_subscription(LaserScan, "/lidar", self.hear, self.qos)
+        self.create_subscription(LaserScan, "/lidar", self.on_message, self.qos)
 
 
 class ListensOnce(Counter):
     """Receives one scan, publishes 0, and destroys its subscription: nothing can get lost any more."""
 
-    def hear(self, scan):
-        super().hear(scan)
+    def on_message(self, scan):
+        super().on_message(scan)
         for subscription in list(self.subscriptions):
             self.destroy_subscription(subscription)

@@ -15,25 +15,25 @@ class Listener(Node):
     def __init__(self):
         super().__init__("chatter_listener")
         for topic, kind in TYPES.items():
-            self.create_subscription(kind, topic, partial(self.hear, topic=topic), 10)
+            self.create_subscription(kind, topic, partial(self.on_message, topic=topic), 10)
 
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         self.get_logger().info(f"{topic}: {msg.data}")
 
 
 class ListenerWithLambdas(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
-        self.create_subscription(String, "chatter0", lambda msg: self.hear(msg, "chatter0"), 10)
-        self.create_subscription(Float64, "chatter1", lambda msg: self.hear(msg, "chatter1"), 10)
-        self.create_subscription(Bool, "chatter2", lambda msg: self.hear(msg, "chatter2"), 10)
+        self.create_subscription(String, "chatter0", lambda msg: self.on_message(msg, "chatter0"), 10)
+        self.create_subscription(Float64, "chatter1", lambda msg: self.on_message(msg, "chatter1"), 10)
+        self.create_subscription(Bool, "chatter2", lambda msg: self.on_message(msg, "chatter2"), 10)
 
 
 class ListenerWithDefaultArgument(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
         for topic, kind in TYPES.items():
-            self.create_subscription(kind, topic, lambda msg, name=topic: self.hear(msg, name), 10)
+            self.create_subscription(kind, topic, lambda msg, name=topic: self.on_message(msg, name), 10)
 
 
 def main_with_function_that_makes_callbacks():
@@ -41,10 +41,10 @@ def main_with_function_that_makes_callbacks():
     node = Node("chatter_listener")
 
     def listener_to(topic):
-        def hear(msg):
+        def on_message(msg):
             node.get_logger().info(f"I heard {topic}: {msg.data}!")
 
-        return hear
+        return on_message
 
     for topic, kind in TYPES.items():
         node.create_subscription(kind, topic, listener_to(topic), 10)
@@ -60,7 +60,7 @@ class ListenerThatKnowsByType(Listener):
             self.create_subscription(kind, topic, self.sort, 10)
 
     def sort(self, msg):
-        self.hear(msg, {String: "/chatter0", Float64: "/chatter1", Bool: "/chatter2"}[type(msg)])
+        self.on_message(msg, {String: "/chatter0", Float64: "/chatter1", Bool: "/chatter2"}[type(msg)])
 
 
 class LambdaInLoop(Listener):
@@ -69,38 +69,38 @@ class LambdaInLoop(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
         for topic, kind in TYPES.items():
-            self.create_subscription(kind, topic, lambda msg: self.hear(msg, topic), 10)  # noqa: B023
+            self.create_subscription(kind, topic, lambda msg: self.on_message(msg, topic), 10)  # noqa: B023
 
 
 class ThreeCallbacks(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
-        self.create_subscription(String, "/chatter0", self.hear_word, 10)
-        self.create_subscription(Float64, "/chatter1", self.hear_number, 10)
-        self.create_subscription(Bool, "/chatter2", self.hear_answer, 10)
+        self.create_subscription(String, "/chatter0", self.on_word, 10)
+        self.create_subscription(Float64, "/chatter1", self.on_number, 10)
+        self.create_subscription(Bool, "/chatter2", self.on_answer, 10)
 
-    def hear_word(self, msg):
-        self.hear(msg, "/chatter0")
+    def on_word(self, msg):
+        self.on_message(msg, "/chatter0")
 
-    def hear_number(self, msg):
-        self.hear(msg, "/chatter1")
+    def on_number(self, msg):
+        self.on_message(msg, "/chatter1")
 
-    def hear_answer(self, msg):
-        self.hear(msg, "/chatter2")
+    def on_answer(self, msg):
+        self.on_message(msg, "/chatter2")
 
 
 class OnlyTwoTopics(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
         for topic in ("/chatter0", "/chatter1"):
-            self.create_subscription(TYPES[topic], topic, partial(self.hear, topic=topic), 10)
+            self.create_subscription(TYPES[topic], topic, partial(self.on_message, topic=topic), 10)
 
 
 class AllOfOneType(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
         for topic in TYPES:
-            self.create_subscription(String, topic, partial(self.hear, topic=topic), 10)
+            self.create_subscription(String, topic, partial(self.on_message, topic=topic), 10)
 
 
 class CountsFromOne(Listener):
@@ -108,33 +108,33 @@ class CountsFromOne(Listener):
         Node.__init__(self, "chatter_listener")
         for number, kind in enumerate(TYPES.values(), start=1):
             topic = f"/chatter{number}"
-            self.create_subscription(kind, topic, partial(self.hear, topic=topic), 10)
+            self.create_subscription(kind, topic, partial(self.on_message, topic=topic), 10)
 
 
 class ValueWithoutTopic(Listener):
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         self.get_logger().info(f"{msg.data}")
 
 
 class TopicWithoutValue(Listener):
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         self.get_logger().info(topic)
 
 
 class WholeMessage(Listener):
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         self.get_logger().info(f"{topic}: {msg}")
 
 
 class DebugLevel(Listener):
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         self.get_logger().debug(f"{topic}: {msg.data}")
 
 
 class ForgetsBool(Listener):
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         if topic != "/chatter2":
-            super().hear(msg, topic)
+            super().on_message(msg, topic)
 
 
 class CallbackOfTwoArguments(Listener):
@@ -143,7 +143,7 @@ class CallbackOfTwoArguments(Listener):
     def __init__(self):
         Node.__init__(self, "chatter_listener")
         for topic, kind in TYPES.items():
-            self.create_subscription(kind, topic, self.hear, 10)
+            self.create_subscription(kind, topic, self.on_message, 10)
 
 
 class SaysEverything(Listener):
@@ -160,5 +160,5 @@ class SaysEverything(Listener):
     def say(self):
         self.get_logger().info(self.line)
 
-    def hear(self, msg, topic):
+    def on_message(self, msg, topic):
         pass

@@ -50,7 +50,7 @@ class Forger(Honest):
     def try_it(self):
         for thing in gc.get_objects():
             if type(thing) is Recording:
-                thing.heard[:] = [heard._replace(stamp=0.0) for heard in thing.heard]
+                thing.received[:] = [received._replace(stamp=0.0) for received in thing.received]
                 thing.path.append(None)
                 thing.ended = None
 

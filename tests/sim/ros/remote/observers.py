@@ -60,7 +60,7 @@ class LateTalker(Node):
 
 
 class LateListener(Node):
-    """Listens from 2 s to 3 s to what was latched, and then again; and says what it hears."""
+    """Listens from 2 s to 3 s to what was latched, and then again; and says what it receives."""
 
     def __init__(self):
         super().__init__("late_listener")
@@ -73,9 +73,9 @@ class LateListener(Node):
             self.destroy_subscription(self.subscription)
             self.subscription = None
         elif self.ticks > 1:
-            self.subscription = self.create_subscription(String, "chat", self.hear, LATCHED)
+            self.subscription = self.create_subscription(String, "chat", self.on_message, LATCHED)
 
-    def hear(self, msg):
+    def on_message(self, msg):
         self.get_logger().info(msg.data)
 
 
@@ -97,7 +97,7 @@ class SloppyTalker(Node):
     def __init__(self):
         super().__init__("sloppy_talker")
         events = PublisherEventCallbacks(
-            incompatible_qos=lambda event: self.get_logger().info("nobody can hear")
+            incompatible_qos=lambda event: self.get_logger().info("nobody can receive")
         )
         self.out = self.create_publisher(String, "chat", BEST_EFFORT, event_callbacks=events)
         self.create_timer(0.2, lambda: self.out.publish(String(data="word")))
@@ -117,7 +117,7 @@ class Burst(Node):
 
 
 class ShortListener(Node):
-    """Has room for three, and answers what it hears."""
+    """Has room for three, and answers what it receives."""
 
     def __init__(self):
         super().__init__("short_listener")
@@ -140,9 +140,9 @@ class Gossip(Node):
 
     def __init__(self):
         super().__init__("gossip")
-        self.create_subscription(ParameterEvent, "/parameter_events", self.hear, 10)
+        self.create_subscription(ParameterEvent, "/parameter_events", self.on_message, 10)
 
-    def hear(self, event):
+    def on_message(self, event):
         changed = [parameter.name for parameter in event.changed_parameters]
         self.get_logger().info(f"{event.node} {changed}")
 

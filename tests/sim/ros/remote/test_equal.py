@@ -80,8 +80,8 @@ TOGETHER = [
 ]
 # Messages that are sent before the two have discovered each other.
 TOO_EARLY = [
-    (("topics", "Hears"), ("topics", "SaysItAtOnce")),
-    (("topics", "SaysItAtOnce"), ("topics", "Hears")),
+    (("topics", "Receives"), ("topics", "SaysItAtOnce")),
+    (("topics", "SaysItAtOnce"), ("topics", "Receives")),
 ]
 
 

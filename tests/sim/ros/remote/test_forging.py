@@ -15,7 +15,7 @@ def drive(follower, name: str, **settings):
 
 
 def hellos(recording) -> list[tuple[float, str]]:
-    return [(heard.stamp, heard.message.data) for heard in recording.messages("/chat")]
+    return [(received.stamp, received.message.data) for received in recording.messages("/chat")]
 
 
 @pytest.mark.parametrize("name", ["Honest", "Teleporter", "Forger"])
