@@ -40,7 +40,7 @@ def stops_soon(run: Recording, canceled: tuple[Goal, Seconds]) -> Goal:
     goal, requested = canceled
     if goal.status != "canceled" or goal.ended is None or goal.ended - requested > QUICKLY:
         often = "Look at goal_handle.is_cancel_requested before each number, not only now and then."
-        ending = "When goal_handle.is_cancel_requested is True, call goal_handle.canceled() and return the result."
+        ending = "If goal_handle.is_cancel_requested, call goal_handle.canceled() and return the result."
         guess = often if goal.status == "canceled" else ending
         expected = f"{goal_text(goal)} canceled within {QUICKLY:g} s of {requested:.3g} s"
         raise Missed(expected, state(goal), guess=guess)
