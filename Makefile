@@ -26,8 +26,8 @@ lab: setup  ## open the course in JupyterLab
 teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
 	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter/teach $(BIN)/jupyter-lab
 
-# One process more than cores: browsers, kernels and robots that run in real time are often waited for.
-TESTERS = $$($(BIN)/python -c "import os; print(1 + len(os.sched_getaffinity(0)))")
+# Two processes more than cores: browsers, kernels and robots that run in real time are often waited for.
+TESTERS = $$($(BIN)/python -c "import os; print(2 + len(os.sched_getaffinity(0)))")
 test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some)
 	@sh .ci/javascript install
 	$(BIN)/python -m pytest -n $(TESTERS) --dist loadfile $(ARGS)

@@ -30,6 +30,8 @@ c.ServerApp.jpserver_extensions = {
 }
 # The course's extension (robot panel, Validate, ...) is written by hand and needs no build.
 c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
+# The course has no language server, and each start of JupyterLab would run npm to look for some.
+c.LanguageServerManager.autodetect = False
 # Terminals find colcon and ros2 in PATH, like cells. Jupyter may start a login shell by default, which would
 # reset PATH; and the scripts that colcon writes are for bash.
 c.ServerApp.terminado_settings = {"shell_command": ["bash", "--rcfile", str(HERE / "terminal.bashrc")]}

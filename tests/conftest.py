@@ -50,8 +50,8 @@ class ByFile(LoadScopeScheduling):
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """One worker more than there are cores: tests wait for browsers, kernels and processes that mark."""
-    return len(os.sched_getaffinity(0)) + 1
+    """Two workers more than there are cores: tests wait for browsers, kernels and processes that mark."""
+    return len(os.sched_getaffinity(0)) + 2
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling | None:

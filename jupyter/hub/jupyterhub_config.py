@@ -37,7 +37,8 @@ c.Authenticator.allowed_users = {*settings.students, *settings.teachers}
 CourseSpawner.settings = settings
 c.JupyterHub.spawner_class = CourseSpawner
 c.Spawner.default_url = "/lab"
-c.Spawner.http_timeout = c.Spawner.start_timeout = 120
+# A whole class logs in at the beginning of a lesson: on two cores the last of 40 servers takes some minutes.
+c.Spawner.http_timeout = c.Spawner.start_timeout = 600
 
 c.JupyterHub.load_groups = {
     group: {"users": list(names)}

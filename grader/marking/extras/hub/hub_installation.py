@@ -27,12 +27,13 @@ def install(course: Path, settings: HubSettings, python: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     handout.write_folder(handout.contents(course) | dict(_added(course)), folder)
     system = os.pathsep.join(["/usr/local/bin", "/usr/bin", "/bin"])
-    environment = {**os.environ, "PATH": system, "PYTHON": python, "WHEELS": str(course / "wheels")}
+    # Users can't write what Python would keep of a module: without it each server's start compiles thousands.
+    kept = {"UV_COMPILE_BYTECODE": "1"}
+    environment = {**os.environ, **kept, "PATH": system, "PYTHON": python, "WHEELS": str(course / "wheels")}
     for name in ("VIRTUAL_ENV", "PYTHONPATH", "MAKEFLAGS", "VENV"):
         environment.pop(name, None)
     _run(["make", "--no-print-directory", "setup"], folder, environment)
     _run(["sh", ".ci/setup", ".venv", LOCK], folder, environment)
-    # Users can't write what Python would keep of it.
     packages = ["sim", "grader", "ros_packages/python", "jupyter"]
     _run([".venv/bin/python", "-m", "compileall", "-q", *packages], folder, environment)
     # Some tools leave files that everyone may write.

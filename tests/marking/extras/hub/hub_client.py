@@ -38,7 +38,7 @@ class HubClient:
             if page.ok and page.url.startswith(f"{self.base}/lab"):
                 return
             assert time.monotonic() < end, f"the server of {self.user} has not started: {page.url}"
-            time.sleep(0.3)
+            time.sleep(2)  # the page that waits asks less often
 
     def get(self, path: str) -> requests.Response:
         """What the user's server answers; by way of the hub's login where that is needed."""
