@@ -14,6 +14,7 @@ from sim.world.route import Route
 
 FAR, CLOSE = 3.0, 0.7  # m; what is judged is nearer than the one, and boxes farther than the other
 COMES = 7.5, 11.0  # s; when the person comes into view
+LATE = 0.3  # s from a scan to its message: the robot has turned in between
 MEETS = 15.5  # s; by then this person has come to the robot
 
 
@@ -21,11 +22,11 @@ MEETS = 15.5  # s; by then this person has come to the robot
 def crossing(seed: int) -> World:
     """Return a warehouse in which a person will walk to the robot.
 
-    A box is in view, and the lidar is off the robot's middle.
+    A box is in view; the lidar is off the robot's middle, and its scans come late.
     """
     draw = random.Random(f"crossing {seed}")
     side, turn = draw.choice((-1.0, 1.0)), draw.uniform(0.5, math.pi)
-    lidar = LidarModel(x=0.07, y=0.04 * side, yaw=round(side * turn, 2))
+    lidar = LidarModel(x=0.07, y=0.04 * side, yaw=round(side * turn, 2), latency=LATE)
     for attempt in range(400):
         world = World.generate("warehouse", seed=(seed + attempt * 7919) % 2**32, movable=6)
         person = world.people[0]

@@ -26,7 +26,7 @@ class LidarModel(Model):
 
     `dropouts` is the probability that a ray has no measurement. `x`, `y` (m) and `yaw` (rad) are the pose of
     base_scan in base_link; by default the robot's center, facing forward. `silent` are the intervals [begin,
-    end] (s) without scans.
+    end] (s) without scans. A scan is published `latency` (s) after it is measured, with the next sensors.
     """
 
     rays: Annotated[int, within(1, 10_000)] = 360
@@ -38,6 +38,7 @@ class LidarModel(Model):
     y: Annotated[float, within(-1, 1, "meters")] = 0.0
     yaw: Angle = 0.0
     silent: Annotated[tuple[Interval, ...], Constraint(_INTERVALS, _are_intervals)] = ()
+    latency: Annotated[float, at_least(0, "s")] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -14,7 +14,7 @@ from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
 from grader.geometry.floor import far_from, points_of
 from grader.responses import from_course, from_student
-from grader.worlds.crossing import CLOSE, FAR, crossing, in_view
+from grader.worlds.crossing import CLOSE, FAR, LATE, crossing, in_view
 from sim.evidence import Message, Pose, Recording, Seconds, since_start
 from sim.network import Network
 from sim.world.clearance import clearance
@@ -22,17 +22,17 @@ from sim.world.clearance import clearance
 POSE, PEOPLE, OBSTACLES = "/robot_pose", "/people", "/obstacles"
 ARRAY = "geometry_msgs/msg/PoseArray"
 PLACED, TURNED = 0.05, 0.06  # m, rad
-REACH = 0.5  # m from the middle of a person or box to a point of it
+REACH, EXACT = 0.5, 0.03  # m from the middle of a person or box to a point of it; from a ray's end
 BOX = 0.25  # m from a box's middle to its points, mostly
 BACK, NEW = 10, 0.2  # scans before, half a second; m from what was seen then to what is new
 EACH = 3  # every third message is judged: what is in view takes time to compute
 MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
 WALKS, STANDS = 0.4, 0.05  # m/s
 SETTLED = 6.0  # s until what stands is known to stand
-EXACT = 0.03  # m
 FROM_THE_MIDDLE = ("The rays begin where the lidar is: give points_of the place of base_scan in map, not "
                    "that of base_link.")
-DELAY = 0.03  # s from the robot to the laptop: the time of now is no scan's
+DELAY = 0.03  # s from the robot to the laptop
+OF_NOW = "That is where the robot is when the scan comes: look up where it was at the scan's stamp."
 PAUSE = 2.0  # s without news on a topic
 ALWAYS = "Publish with every other scan from the first one on: a list that is missing stops no robot."
 
@@ -51,14 +51,14 @@ def publishes_all_three(run: Recording) -> None:
 @perceive.check(4, after=publishes_all_three)
 def knows_its_place(run: Recording) -> None:
     """/robot_pose is where base_link was at its stamp, in map."""
-    hint = ("Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's "
-            "stamp.")
+    hint = "Look up map to base_link for the robot, and map to base_scan for the rays, at the scan's stamp."
     for row in from_student(run, POSE):
-        pose, true = Pose2D.from_message(row.message.pose), Pose2D(*_nearest(run.path, _time(row))[1:])
+        pose = Pose2D.from_message(row.message.pose)
+        true, later = (Pose2D(*_nearest(run.path, when)[1:]) for when in (_time(row), row.stamp))
         if not pose.is_near(true, PLACED, TURNED):
             expected = f"the robot at {_text(true)}, turned by {true.yaw:.2f} rad"
             saw = f"{_text(pose)} and {pose.yaw:.2f} rad at {row.stamp:.3g} s"
-            raise Missed(expected, saw, hint)
+            raise Missed(expected, saw, OF_NOW if pose.is_near(later, PLACED, TURNED) else hint)
 
 
 @perceive.check(3, after=knows_its_place)
@@ -70,7 +70,8 @@ def stamps_by_the_scan(run: Recording) -> None:
         rows = from_student(run, topic)
         wrong = next((row for row in rows if _nanoseconds(row) not in stamps), None)
         if wrong:
-            saw = f"{_time(wrong):.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
+            sec, nanosec = _nanoseconds(wrong)
+            saw = f"{sec + nanosec / 1e9:.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
             raise Missed("the stamps of scans", saw, hint)
         if any(row.message.header.frame_id != "map" for row in rows):
             hint = "The header says in which frame a place is: listed and stamped write map."
@@ -119,9 +120,8 @@ def finds_who_walks(run: Recording) -> None:
             hint = "What has stood there all the time doesn't walk: compare with half a second before."
             saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
             raise Missed("no box on /people that has stood there for six seconds", saw, hint)
-    sometimes = any(_has(_points(row), _nearest(_person(run), _time(row))[1:3]) for row in seen)
     hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
-    if sometimes:
+    if any(_has(_points(row), _nearest(_person(run), _time(row))[1:3]) for row in seen):
         hint = "Keep the points that moved, each with its time, for five seconds: at times they are missing."
     for row in seen:
         turned = _begins_at_base_link(run, row)
@@ -136,8 +136,8 @@ def remembers_who_stops(run: Recording) -> None:
     """A person who walked, and stops, stays on /people for some seconds."""
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.2) and _speed_of_person(run, row, 1.2) < STANDS]
+    hint = "Keep the points that moved, each with its time, for five seconds."
     for row in seen:
-        hint = "Keep the points that moved, each with its time, for five seconds."
         _require_person(run, row, "a person who walked here, and stands now", hint)
     _require_three(run, seen, "a person who stands")
 
@@ -161,9 +161,9 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
 
 def _begins_at_base_link(run: Recording, row: Message) -> bool:
     """Whether the obstacles of a scan are where its rays would end, did they begin at base_link."""
-    scan = next((one for one in from_course(run, "/scan") if _nanoseconds(one) == _nanoseconds(row)), None)
-    told = next((one for one in from_student(run, OBSTACLES) if _nanoseconds(one) == _nanoseconds(row)), None)
-    if scan is None or told is None or not _points(told):
+    scan, told = (next((one for one in rows if _nanoseconds(one) == _nanoseconds(row)), None)
+                  for rows in (from_course(run, "/scan"), from_student(run, OBSTACLES)))
+    if not (scan and told and _points(told)):
         return False
     robot = _nearest(run.path, _time(row))[1:]
     off = [_off(_points(told), points_of(scan.message, pose))
@@ -185,8 +185,7 @@ def _require_person(run: Recording, row: Message, who: str, hint: str) -> None:
         raise Missed(f"{who}, at {_text(there)}", saw, hint)
     if len(points) > 300:
         hint = "Publish the points that moved as they are, each of them once."
-        saw = f"{len(points)} points at {row.stamp:.3g} s"
-        raise Missed("at most 300 points of people", saw, hint)
+        raise Missed("at most 300 points of people", f"{len(points)} points at {row.stamp:.3g} s", hint)
 
 
 def _require_no_pause(run: Recording, topic: str) -> None:
@@ -219,7 +218,7 @@ def _speed_of_person(run: Recording, row: Message, lasting: Seconds) -> float:
 
 def _is_seen(run: Recording, row: Message, lasting: Seconds) -> bool:
     """Whether the person has been in view for a while."""
-    there = [_nearest(_person(run), _time(row) - back)[1:3] for back in (lasting, lasting / 2, 0.0)]
+    there = (_nearest(_person(run), _time(row) - back)[1:3] for back in (lasting, lasting / 2, 0.0))
     return all(in_view(run.world, run.world.start[:2], place, FAR - 0.5) for place in there)
 
 
@@ -238,12 +237,13 @@ def _points(row: Message) -> list[Point]:
 
 
 def _time(row: Message) -> Seconds:
-    return since_start(row.message.header.stamp)
+    """The message's stamp; if it is newer than a scan can be, the time of the scan that had just come."""
+    stamp = since_start(row.message.header.stamp)
+    return stamp if stamp < row.stamp - LATE / 2 else stamp - LATE - DELAY
 
 
 def _nanoseconds(row: Message) -> tuple[int, int]:
-    stamp = row.message.header.stamp
-    return stamp.sec, stamp.nanosec
+    return row.message.header.stamp.sec, row.message.header.stamp.nanosec
 
 
 def _text(place: Point) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
@@ -47,6 +48,8 @@ class Robot(Node):
         self.world, self.robot = world, robot
         self.messages = SensorMessages(world.lidar, "" if self.first else f"{robot.name}/")
         self._commands = 0  # since the last sense
+        self._scans: deque[tuple[int, bytes]] = deque()  # to be published: time of measurement (ns), ranges
+        self._latency = round(world.lidar.latency * SECOND)
         if world.robot.stamped:
             self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)
         else:
@@ -108,7 +111,10 @@ class Robot(Node):
         self.tf_pub.publish(messages.tf.fill(*stamp, *pose))
         self.joint_pub.publish(messages.joints.fill(*stamp, *robot.wheels))
         if robot.lidar_works:
-            self.scan_pub.publish(messages.scan.fill(*stamp, robot.scan().tobytes()))
+            self._scans.append((now, robot.scan().tobytes()))
+        while self._scans and self._scans[0][0] + self._latency <= now:
+            measured, ranges = self._scans.popleft()
+            self.scan_pub.publish(messages.scan.fill(*divmod(measured, SECOND), ranges))
         self.bumper_pub.publish(messages.bumper[bool(robot.bumper)])
 
     def _warn_of_flood(self) -> None:

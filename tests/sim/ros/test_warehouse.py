@@ -211,6 +211,17 @@ def test_a_lidar_can_be_silent_for_a_while():
     assert len(recording.messages("/odom")) == 121
 
 
+def test_a_scan_is_published_a_lidar_s_latency_after_its_stamp():
+    lidar = dataclasses.replace(FLOOR.lidar, latency=0.12)
+    recording, prompt = (
+        run(world=dataclasses.replace(FLOOR, lidar=each), seconds=1) for each in (lidar, FLOOR.lidar)
+    )
+    late = [(item.stamp, since_start(item.message.header.stamp)) for item in recording.messages("/scan")]
+    assert late[:2] == [(0.15, 0.0), (0.2, 0.05)] and len(late) == 18
+    both = zip(recording.messages("/scan"), prompt.messages("/scan"), strict=False)
+    assert all(one.message == other.message for one, other in both)
+
+
 class Stands(Node):
     """Takes what comes where it stands."""
 

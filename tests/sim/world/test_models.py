@@ -54,6 +54,7 @@ ROUTE = "[[x, y], ...], two or more corners (meters), each different from the on
     (LidarModel, {"x": 2}, "x is 2; write a number from -1 to 1 (meters)."),
     (LidarModel, {"yaw": math.inf}, "yaw is inf; write a finite number (radians)."),
     (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
+    (LidarModel, {"latency": -1}, "latency is -1; write a number from 0 to 1000000 (s)."),
     (LidarModel, {"silent": [[4, 2]]}, "silent is [[4, 2]]; write a list of spans [begin, end] (s)."),
     (WarehouseModel, {"pickups": [[1, 0, 0]], "desk": [0, 0, 0], "withdrawn": [-1]},
      "withdrawn is [-1]; write a list of moments (s), 0 or later."),
