@@ -25,6 +25,7 @@ from grader.typos import (
     typos_of,
     with_right_types,
 )
+from grader.workspace.interfaces import Interfaces
 from grader.workspace.near_misses import Correction
 from grader.workspace.package import Package
 from grader.workspace.package_xml import PYTHON
@@ -37,7 +38,6 @@ class Exercise:
     '''A task with its checks and the runs they judge. The simplest has one run:
 
         counter = Exercise("counter", "A counting node", seconds=5)
-
         @counter.check(3)
         def counts(recording):
             \"""The node counts from 1 on.\"""
@@ -45,13 +45,12 @@ class Exercise:
         counter.grade(CountingNode)
 
     name: unique in the course. title: what the student reads.
-    world, seconds, companions, until, network: the one scenario, run once for each of `seeds`.
+    world, seconds, companions, until, network, waits: the one scenario, run once for each of `seeds`.
     scenarios: in place of these, several scenarios; a check holds only if it holds in all that judge it.
     may_end: its programs come to their end when they are done; else the time after that is not earned.
     package: the name of the package that is built and run. `grade` then takes the folder of a workspace,
         `prepare` of each scenario says which of its programs runs, and checks are given a `PackageRun`.
-    build_type: that of the package; one of "ament_cmake" has interfaces, and is read in place of being built.
-    waits: as in Scenario.
+    build_type: that of the package. uses: a package of interfaces in the same workspace that it imports.
     names_count: names are a part of the task, so those alone may earn more than 30 % of the points.
     extra_allowed: messages beyond those that the task wants cost nothing.
     near_misses: corrections of a package's files, which earns half of the points then.
@@ -73,6 +72,7 @@ class Exercise:
     waits: bool = True
     package: str = ""
     build_type: str = PYTHON
+    uses: Interfaces | None = None
     names_count: bool = False
     extra_allowed: bool = False
     near_misses: Sequence[Correction] = ()
@@ -175,10 +175,11 @@ class Exercise:
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
         with redirect_stderr():
-            found = source.package(self.package, self.build_type) if self.package else source.refusal()
+            package = self.package, self.build_type, self.uses
+            found = source.package(*package) if self.package else source.refusal()
             score = self._score(source, secret, found, order)
             if self.near_misses and score < score.max:
-                found = source.package(self.package, self.build_type, self.near_misses)
+                found = source.package(*package, self.near_misses)
                 if isinstance(found, Package):
                     without = self._score(source, secret, found, order)
                     score = score.with_verdicts(partial_credit(score.verdicts, without.verdicts))
@@ -207,8 +208,7 @@ class Exercise:
             try:
                 if order is None:
                     chosen = order_of_run(index, seed) if all(map(is_full, judged)) else USUAL
-                    public = not secret
-                    (recording, verdicts), difference = judge_in_orders(chosen, in_order, index, public)
+                    (recording, verdicts), difference = judge_in_orders(chosen, in_order, index, not secret)
                     differences += filter(None, [difference])
                 else:
                     recording, verdicts = in_order(order)

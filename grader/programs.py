@@ -10,8 +10,10 @@ from grader.diagnosis.fault import Fault
 from grader.grade_arguments import outdated_code, refusal, unusable_argument
 from grader.workspace import building, installation
 from grader.workspace.building import Build
+from grader.workspace.interfaces import Interfaces
+from grader.workspace.judge_types import provide
 from grader.workspace.near_misses import Correction, corrected
-from grader.workspace.package import Package, make_package
+from grader.workspace.package import Package, make_package, with_interfaces
 from sim.ros.remote import Remote, RemoteLost
 from sim.ros.remote.serving import prepared
 
@@ -33,11 +35,14 @@ class ProgramSource(Protocol):
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
 
-    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
+    def package(
+        self, name: str, build_type: str, uses: Interfaces | None = None, corrections: Corrections = ()
+    ) -> Package | Fault | None:
         """The package of this name and type in the workspace that was handed over, built anew and installed
         where its programs live; or why there is none.
 
-        corrections: of near misses. With these it is the corrected package, or None if nothing is corrected.
+        uses: a package of interfaces there that is installed beside it. corrections: of near misses. With
+        these it is the corrected package, or None if nothing is corrected.
         """
 
     def leave(self) -> None:
@@ -61,10 +66,12 @@ class LocalPrograms:
         """See ProgramSource."""
         return prepared(self._nodes, *_parts(prepare))
 
-    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
+    def package(
+        self, name: str, build_type: str, uses: Interfaces | None = None, corrections: Corrections = ()
+    ) -> Package | Fault | None:
         """See ProgramSource."""
-        sources = _corrected(installation.serialize_sources(self._nodes, name), corrections)
-        made = None if sources is _SAME else make_package(name, sources, self._build, build_type)
+        read = functools.partial(installation.serialize_sources, self._nodes)
+        made = _made(read, self._build, name, build_type, uses, corrections)
         if isinstance(made, Package):
             installation.install(made.built.files, made.built.programs)
         return made
@@ -97,17 +104,42 @@ class RemotePrograms:
         """See ProgramSource."""
         return [self._remote.program(serialize_preparation(prepare))]
 
-    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
+    def package(
+        self, name: str, build_type: str, uses: Interfaces | None = None, corrections: Corrections = ()
+    ) -> Package | Fault | None:
         """See ProgramSource. The other process sends the sources and installs what was built."""
-        sources = _corrected(self._remote.call(_name(installation.serialize_sources), name), corrections)
-        made = None if sources is _SAME else make_package(name, sources, self._build, build_type)
+        read = functools.partial(self._remote.call, _name(installation.serialize_sources))
+        made = _made(read, self._build, name, build_type, uses, corrections)
         if isinstance(made, Package):
+            if uses:
+                provide(uses, self._build)
             built = installation.serialize_installation(made.built)
             self._remote.call(_name(installation.install_remotely), *built)
         return made
 
     def leave(self) -> None:
         """See ProgramSource. The other process ends soon, and it is the student's."""
+
+
+def _made(
+    read: Callable[[str], Any],
+    build: Build,
+    name: str,
+    build_type: str,
+    uses: Interfaces | None,
+    corrections: Corrections,
+) -> Package | Fault | None:
+    """The package, built; None if there are corrections and none applies.
+
+    read: returns the sources of the package of this name, as `serialize_sources` does.
+    """
+    sources = _corrected(read(name), corrections)
+    if sources is _SAME:
+        return None
+    made = make_package(name, sources, build, build_type)
+    if uses and isinstance(made, Package):
+        return with_interfaces(made, uses, read(uses.name), build)
+    return made
 
 
 def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[Any]]:

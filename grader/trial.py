@@ -12,7 +12,9 @@ from grader.exercise import Exercise
 from grader.programs import LocalPrograms
 from grader.tell import BEGIN, tell
 from grader.workspace.building import CannotBuildHere
+from grader.workspace.interfaces import type_names
 from grader.workspace.package import Package
+from grader.workspace.package_xml import CMAKE
 from sim.evidence import Recording
 
 
@@ -20,16 +22,17 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
     """Build the package of an exercise, and run one of its scenarios.
 
     workspace: the folder with src/ in it. What goes wrong is printed; the recording of a package that can't
-    be built is empty. No points are given. A package of interfaces is not built: what it defines is printed.
+    be built is empty. No points are given. Of a package of interfaces, what it defines is printed.
     """
     source = LocalPrograms((workspace,))
     try:
-        found = source.package(exercise.package, exercise.build_type)
+        found = source.package(exercise.package, exercise.build_type, exercise.uses)
         if isinstance(found, Fault):
             print(BEGIN if found.sentence == NOT_STARTED else f"{found.saw}\nHint: {found.hint}")
             return Recording()
-        if not found.built.files:
+        if exercise.build_type == CMAKE:
             _print_definitions(found)
+            print(found.built.problem or f"Built: {', '.join(type_names(found.built.files))}")
             return Recording()
         chosen, seed = exercise.runs()[scenario]
         recording = chosen.run(source, seed)

@@ -1,4 +1,7 @@
-"""Builds a package with colcon from its sources alone, as a fresh clone on another machine would be built."""
+"""Builds a package from its sources alone, as a fresh clone on another machine would be built.
+
+colcon builds a package of programs. One of interfaces is built in seconds without CMake, see `interfaces`.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,12 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from grader.workspace import interfaces
 from grader.workspace.sources import INSTALLED, InvalidFiles, Sources, read_files, validate_files
 
 SECONDS = 300.0  # only against hanging: a busy machine is slow, and the sandbox limits the CPU time
@@ -42,6 +46,10 @@ class Built:
     output: str = ""
     problem: str = ""
 
+    def with_files_of(self, other: Built) -> Built:
+        """Return this build with the files of another one installed beside its own."""
+        return replace(self, files={**other.files, **self.files})
+
 
 Build = Callable[[Sources], Built]
 
@@ -54,16 +62,40 @@ def build(sources: Sources) -> Built:
 
 def build_in(folder: Path, sources: Sources) -> Built:
     """Build in this folder. Raises CannotBuildHere."""
+    folder = folder.absolute()
     for path, data in sources.items():
         file = folder / "src" / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-    status, output = _colcon(folder)
+    name = interfaces.package_name(sources)
+    return _build_interfaces(folder, name, sources) if name else _build_programs(folder)
+
+
+def _build_programs(folder: Path) -> Built:
+    command = [sys.executable, str(Path(sys.executable).with_name("colcon")), *COLCON]
+    status, output = _execute(command, folder, folder)
     if status is None:
         return Built(output=output, problem=TOO_LONG)
     if status or "Finished <<<" not in output:
         return Built(output=output, problem="colcon build failed.")
-    install = folder / "install"
+    return _installed(folder / "install", output)
+
+
+def _build_interfaces(folder: Path, name: str, sources: Sources) -> Built:
+    try:
+        interfaces.select_definitions(folder, name, sources)
+    except InvalidFiles as reason:
+        return Built(problem=str(reason))
+    status, output = _execute(interfaces.command(folder), interfaces.TOOLS, folder)
+    if status is None:
+        return Built(output=output, problem=TOO_LONG)
+    if status:
+        return Built(output=output, problem=interfaces.FAILED)
+    return _installed(interfaces.install(folder), output)
+
+
+def _installed(install: Path, output: str) -> Built:
+    """The result of a build that has ended well: what it installed in this folder."""
     try:
         files = read_files(install, "install", INSTALLED)
     except InvalidFiles as reason:
@@ -82,16 +114,18 @@ def parse_built(files: Any, programs: Any, output: Any, problem: Any) -> Built:
     return Built(taken, frozenset(name for name in names if name in taken), output, problem)
 
 
-def _colcon(folder: Path) -> tuple[int | None, str]:
-    """Colcon's exit status, None after a timeout, and the end of its output."""
+def _execute(command: Sequence[str], working: Path, folder: Path) -> tuple[int | None, str]:
+    """Run a command of a build in a working folder. folder: the workspace.
+
+    Returns its exit status, None after a timeout, and the end of its output.
+    """
     inherited = ("PATH", "HOME", "TMPDIR", "LANG", "PYTHONHASHSEED")
     environment = {name: os.environ[name] for name in inherited if name in os.environ}
     environment |= {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONWARNINGS": "ignore", "COLCON_HOME": str(folder)}
-    command = [sys.executable, str(Path(sys.executable).with_name("colcon")), *COLCON]
     with tempfile.TemporaryFile() as output:
         try:
             process = subprocess.Popen(
-                command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+                command, cwd=working, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                 stderr=subprocess.STDOUT, start_new_session=True,
             )  # fmt: skip
         except PermissionError:

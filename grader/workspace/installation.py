@@ -16,16 +16,23 @@ from typing import Any
 
 from grader.workspace.building import Built
 from grader.workspace.sources import InvalidFiles, read_files
+from sim.ros.remote import trust_types_in
 
 PREFIXES = "AMENT_PREFIX_PATH"
 LAYOUT = ".colcon_install_layout"
 
+TYPE_SUPPORT = "_s__rosidl_typesupport_c.so"
+
 _prefixes: list[Path] = []  # the current install prefix; at most one
+_type_packages: set[str] = set()  # installed now or before, and still imported
 
 
 def install(files: Mapping[str, bytes], programs: Iterable[str]) -> None:
     """Install files for this process, with priority over other packages; replaces a previous installation."""
     uninstall()
+    _forget(_type_packages)
+    _type_packages.clear()
+    _type_packages.update(path.split("/")[-2] for path in files if path.endswith(TYPE_SUPPORT))
     prefix = Path(tempfile.mkdtemp(prefix="install-"))
     _prefixes.append(prefix)
     for path, data in files.items():
@@ -39,16 +46,27 @@ def install(files: Mapping[str, bytes], programs: Iterable[str]) -> None:
 
 
 def uninstall() -> None:
-    """Remove the installed files and modules."""
+    """Remove the installed files and modules.
+
+    Types of messages stay imported until the next installation: recordings of a run are decoded with them.
+    """
     while _prefixes:
         prefix = _prefixes.pop()
         known = os.environ.get(PREFIXES, "").split(os.pathsep)
         os.environ[PREFIXES] = os.pathsep.join(word for word in known if word != str(prefix))
         sys.path[:] = [word for word in sys.path if not word.startswith(str(prefix))]
-        for name, module in list(sys.modules.items()):
-            if str(getattr(module, "__file__", None)).startswith(str(prefix)):
-                del sys.modules[name]
+        modules = list(sys.modules.items())
+        own = {
+            name for name, module in modules if str(getattr(module, "__file__", None)).startswith(str(prefix))
+        }
+        _forget({name.split(".")[0] for name in own} - _type_packages)
         shutil.rmtree(prefix, ignore_errors=True)
+
+
+def _forget(packages: Iterable[str]) -> None:
+    """Let the modules of these packages be imported anew."""
+    for name in [name for name in sys.modules if name.split(".")[0] in packages]:
+        del sys.modules[name]
 
 
 def _modules(prefix: Path) -> Path:
@@ -97,8 +115,9 @@ def serialize_sources(nodes: Sequence[Any], package: str) -> dict[str, bytes] | 
 
 
 def install_remotely(_: Sequence[Any], files: dict[str, bytes], programs: list[str]) -> None:
-    """Called in the student's process: install these files."""
+    """Called in the student's process: install these files, and use types of messages that are among them."""
     install(files, programs)
+    trust_types_in(str(_modules(_prefixes[-1])))
 
 
 def serialize_installation(built: Built) -> tuple[dict[str, bytes], list[str]]:

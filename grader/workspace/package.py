@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Self
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.workspace.build_errors import explain_build_error
 from grader.workspace.building import Build, Built
+from grader.workspace.interfaces import Interfaces
 from grader.workspace.package_xml import CMAKE, PYTHON, PackageXml, parse_package_xml
 from grader.workspace.sources import InvalidFiles, Sources, validate_files
 from sim.evidence import Recording
@@ -18,9 +19,9 @@ MAX_TEXT = 500  # characters of a text from another process
 
 @dataclass(frozen=True)
 class Package:
-    """A built package: its sources, its package.xml, and the result of the build.
+    """A package: its sources, its package.xml, and the result of the build.
 
-    A package of interfaces is not built: that takes most of a minute, and its sources are sufficient.
+    The build of a package of interfaces may have failed: its checks look at the sources as well.
     """
 
     sources: Sources
@@ -55,14 +56,28 @@ def make_package(name: str, received: Any, build: Build, build_type: str = PYTHO
         if any(STUB in data for data in sources.values()):
             return _not_started("ws/src/" + next(path for path, data in sources.items() if STUB in data))
         package_xml = parse_package_xml(sources, name, build_type)
-        built = Built() if build_type == CMAKE else build(sources)
+        built = build(sources)
     except InvalidFiles as reason:
         return _fault("a package that can be built", str(reason))
-    if built.problem:
+    if built.problem and build_type != CMAKE:
         setup = sources.get(f"{name}/setup.py", b"").decode("utf-8", "replace")
         saw, hint = explain_build_error(built, setup)
         return _fault("a package that can be built", saw, hint)
     return Package(sources, package_xml, built)
+
+
+def with_interfaces(package: Package, uses: Interfaces, received: Any, build: Build) -> Package | Fault:
+    """The package with the types that it uses, built from the sources of the same workspace; or a fault.
+
+    received: the interface package's sources, as for `make_package`.
+    """
+    made = make_package(uses.name, received, build, CMAKE)
+    saw = made.saw if isinstance(made, Fault) else made.built.problem or uses.difference(made.built.files)
+    if saw:
+        expected = f"{uses.name} with the types that the task describes"
+        hint = f"Earn the points for {uses.name} first: the check there says what is missing."
+        return replace(_fault(expected, saw, hint), sentence="The types that your package uses are built.")
+    return replace(package, built=package.built.with_files_of(made.built))
 
 
 def _fault(expected: str, saw: str, hint: str = "") -> Fault:

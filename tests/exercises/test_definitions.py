@@ -32,6 +32,7 @@ crate_interfaces/srv/FindCrates
     float64 heaviest
     ---
     Crate[] crates
+The types could not be built.
 """
 
 

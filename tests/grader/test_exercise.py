@@ -108,7 +108,7 @@ class Source(LocalPrograms):
         super().__init__(nodes)
         self.left = 0
 
-    def package(self, name, build_type, corrections=()):
+    def package(self, name, build_type, uses=None, corrections=()):
         self.asked = name, build_type
         return None if corrections else self.installed
 

@@ -5,7 +5,8 @@ A row, [[rule]], has
     rule        the rule, in one sentence
     in.CELL     where the lesson states it: the id of a cell, and words of one sentence in it, or a list
     check       the check that looks for it, as "TOPIC/EXERCISE: FUNCTION"; a program that fails with an error
-                loses its points at "TOPIC/EXERCISE: runs", and a package at "TOPIC/EXERCISE: is_built"
+                loses its points at "TOPIC/EXERCISE: runs", a package at "TOPIC/EXERCISE: is_built", and
+                without the types that it uses at "TOPIC/EXERCISE: has_types"
     wrong       nodes on the exercise's score page that break the rule, and lose points at this check
     right       nodes there that keep it, and earn everything
     technique   where the rule recommends a way to write it: a pattern that the right nodes' sources have
@@ -45,7 +46,11 @@ CATEGORIES = {
     "not yet": "will have a check soon",
 }
 SELF_EVIDENT = ("fact", "notebook")  # categories that need no further reason
-ERRORS = {"runs": Fault.sentence, "is_built": "Your package is built."}
+ERRORS = {
+    "runs": Fault.sentence,
+    "is_built": "Your package is built.",
+    "has_types": "The types that your package uses are built.",
+}
 
 
 @dataclass(frozen=True)

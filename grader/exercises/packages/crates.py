@@ -7,6 +7,7 @@ from grader.checks.cmake_lists import CMakeCommand, read_commands
 from grader.checks.interface_definitions import PARTS, InterfacePart, read_definition
 from grader.checks.packages import package_of
 from grader.exercise import Exercise
+from grader.workspace.interfaces import type_hash
 from grader.workspace.package import PackageRun
 from grader.workspace.package_xml import CMAKE
 from grader.workspace.sources import Sources
@@ -105,6 +106,19 @@ def makes_types(run: PackageRun) -> None:
     if "ament_package" not in names[place:]:
         hint = "Without it, what was installed isn't found."
         raise _line("ament_package() at the end", "none there", hint)
+
+
+@crates.check(2, after=(can_be_read, makes_types))
+def types_are_built(run: PackageRun) -> None:
+    """The package is built, and programs can import its three types."""
+    built = package_of(run).built
+    if built.problem:
+        hint = "A line above says why; or call colcon build in ws, and read its first error."
+        raise Missed("a package of types that can be built", built.problem, hint)
+    absent = [path for path in FILES if not type_hash(built.files, NAME, path.rpartition(".")[0])]
+    if absent:
+        hint = "Types are built for the definitions that are handed over, and for no other."
+        raise Missed("three types that can be imported", f"none for {', '.join(absent)}", hint)
 
 
 def _hands_over(command: CMakeCommand, sources: Sources) -> None:

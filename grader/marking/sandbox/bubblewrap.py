@@ -25,6 +25,7 @@ SYSCTLS = (
 # Ubuntu's profile: bubblewrap may make namespaces, and the processes that it starts may not.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
 ROS_PACKAGES = Path(__file__).parents[3] / "ros_packages" / "python"
+BUILD_TOOLS = Path(__file__).parents[3] / "ros_packages" / "interfaces" / "build_tools"
 COURSE = "sim", "grader", *sorted(file.parent.name for file in ROS_PACKAGES.glob("*/__init__.py"))
 
 
@@ -36,7 +37,7 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
     for path in extra:
         os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
-    course = *_packages(), *ROS_PACKAGES.glob("*.py")
+    course = *_packages(), *ROS_PACKAGES.glob("*.py"), BUILD_TOOLS
     paths = {Path(path).absolute() for path in (*python, *course, *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]

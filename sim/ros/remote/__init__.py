@@ -7,6 +7,7 @@ runs the student's nodes; it receives only what they may receive, at the simulat
 from sim.ros.fibers.exceptions import RemoteLost
 from sim.ros.remote.remote import Remote
 from sim.ros.remote.serving import serve
+from sim.ros.remote.validation import trust_types_in
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireError, WireTimeout
 
 __all__ = [
@@ -18,4 +19,5 @@ __all__ = [
     "WireError",
     "WireTimeout",
     "serve",
+    "trust_types_in",
 ]

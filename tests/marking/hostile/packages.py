@@ -1,7 +1,7 @@
 """A class whose packages are hostile, and one who is honest.
 
 Everybody hands in two packages beside the notebook: `greeter`, which is built, worth 16 points, and
-`crate_interfaces`, which is read, worth 18. A trick spoils one of them; what it doesn't touch is right.
+`crate_interfaces`, whose types are built, worth 20. A trick spoils one of them; the rest is right.
 
 tests/marking/hostile/packages.txt says what each gets, word by word.
 
@@ -40,7 +40,7 @@ RELEASE = Release(
                 nbformat.v4.new_code_cell("from grader.exercises import packages", id="setup"),
                 answer("own", "# yours"),
                 grade("greeter-points", 16, 'packages.greeter.grade("ws")'),
-                grade("crates-points", 18, 'packages.crates.grade("ws")'),
+                grade("crates-points", 20, 'packages.crates.grade("ws")'),
             ]
         )
     },
