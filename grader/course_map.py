@@ -17,6 +17,7 @@ from grader.course_notebooks import (
     CoursePart,
     Notebook,
     new_versions,
+    picture_of,
     read_chapters,
     read_due_dates,
     read_notebooks,
@@ -87,8 +88,15 @@ class CourseMap:
         """The parts in the order of the course."""
         for name, notebooks in groupby(self.notebooks, key=lambda item: item.path.parent.name):
             due = self._due.get(name)
-            picture = read_text(self._root / "course" / name / PICTURE)
-            yield CoursePart(name, tuple(notebooks), picture, format_local(due) if due else "")
+            items = tuple(notebooks)
+            yield CoursePart(name, items, self._picture(name, items), format_local(due) if due else "")
+
+    def _picture(self, name: str, items: tuple[Notebook, ...]) -> str:
+        """The SVG of a part's goal; of several lessons, that of the first one that is not done."""
+        lessons = [item for item in items if not item.most]
+        following = [item for item in lessons if not item.done] or lessons
+        shown = [read_text(picture_of(item.path)) for item in following[:1]]
+        return "".join(shown) or read_text(self._root / "course" / name / PICTURE)
 
 
 def course_map(here: Path | str | None = None) -> CourseMap:

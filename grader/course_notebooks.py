@@ -12,12 +12,14 @@ from typing import Any
 
 PART = re.compile(r"(\d\d)_(\w+)")
 # Metadata in the text of a notebook's first cell.
+HALF = re.compile(r"^# Lesson (\d+[a-z]):", re.MULTILINE)  # the number of a lesson with several notebooks
 TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
 NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
 DONE = 0.9  # fraction of a lesson's cells that counts as done
 DUE = "due.json"  # in course/; `python -m grader due` writes it
 CHAPTERS = "chapters.json"  # in course/
-PICTURE = "goal.svg"  # in a lesson's folder
+FIRST = "lesson.ipynb"  # the first or only notebook of a lesson
+PICTURE = "goal.svg"  # the goal of FIRST, beside it; that of driving.ipynb is driving.svg
 FOLDERS = ("course", "exercises")
 BRIDGE = "bridge"  # the folder of the pages after the lessons; each is a notebook
 NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
@@ -28,6 +30,7 @@ class Notebook:
     """The state of a lesson or an assignment in its file. A lesson has 0 of 0 points."""
 
     path: Path
+    number: str  # of its lesson, such as "4" or "4b"; of a page of the bridge "B" and the page's number
     title: str
     time: str
     needs: str
@@ -40,12 +43,6 @@ class Notebook:
     def name(self) -> str:
         """Its number, title and kind."""
         return f"{self.number} {self.title} ({self.kind})"
-
-    @property
-    def number(self) -> str:
-        """The number of its lesson; for a page of the bridge the letter B and the number of the page."""
-        folder = self.path.parent.name
-        return f"B{int(self.path.stem[:2])}" if folder == BRIDGE else str(int(folder[:2]))
 
     @property
     def kind(self) -> str:
@@ -119,12 +116,22 @@ def read_notebooks(root: Path) -> Iterator[Notebook]:
     """Lessons and assignments in the order of the course."""
     found = [path for folder in FOLDERS for path in (root / folder).glob("*/*.ipynb")]
     found = [path for path in found if _is_part(path) and NEW_VERSION not in path.stem]
-    for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
+    for path in sorted(found, key=course_order):
         try:
             cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
             yield _notebook(path, [cell | {"source": "".join(cell["source"])} for cell in cells])
         except (AttributeError, KeyError, OSError, TypeError, ValueError):
             continue  # invalid; JupyterLab reports it when it is opened
+
+
+def course_order(path: Path) -> tuple[str, str, bool, str]:
+    """Sorts notebooks: by lesson; the lesson before its assignment; of several notebooks FIRST first."""
+    return path.parent.name, path.parent.parent.name, path.name != FIRST, path.name
+
+
+def picture_of(notebook: Path) -> Path:
+    """The file with the picture of a lesson's goal."""
+    return notebook.with_name(PICTURE) if notebook.name == FIRST else notebook.with_suffix(".svg")
 
 
 def _is_part(path: Path) -> bool:
@@ -141,6 +148,7 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
     needs = f"lesson {int(path.parent.name[:2])}" if tests else ""
     return Notebook(
         path=path,
+        number=_number(path, text),
         title=title,
         time=_phrase(TIME, text),
         needs=_phrase(NEEDS, text) or needs,
@@ -149,6 +157,13 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
         points=sum(map(_earned, tests)),
         most=sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in tests),
     )
+
+
+def _number(path: Path, text: str) -> str:
+    folder = path.parent.name
+    if folder == BRIDGE:
+        return f"B{int(path.stem[:2])}"
+    return _phrase(HALF, text) or str(int(folder[:2]))
 
 
 def _phrase(pattern: re.Pattern[str], text: str) -> str:

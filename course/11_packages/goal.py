@@ -26,9 +26,9 @@ class Ahead(Node):
     def __init__(self):
         super().__init__("ahead")
         self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
-        self.create_subscription(LaserScan, "scan", self.hear, qos_profile_sensor_data)
+        self.create_subscription(LaserScan, "scan", self.on_scan, qos_profile_sensor_data)
 
-    def hear(self, scan):
+    def on_scan(self, scan):
         """Slow down on the last meter."""
         command = Twist()
         command.linear.x = max(0.0, min(0.3, scan.ranges[0] - 1.0))

@@ -124,15 +124,20 @@ def executed(folder: str, assignment: str) -> dict[str, Answer]:
 
 
 def notebook_run(folder: str, assignment: str) -> NotebookNode:
-    """The notebook of an assignment, run to its end in a copy of its folder."""
-    made = Evidence.of_notebooks(folder, assignment).get("notebook", lambda: _run(ROOT / folder / assignment))
+    """The notebook of an assignment, run to its end in a copy of its folder.
+
+    assignment: or a lesson's notebook, such as "04_actions/driving".
+    """
+    name, _, stem = assignment.partition("/")
+    evidence = Evidence.of_notebooks(folder, name)
+    made = evidence.get(stem or "notebook", lambda: _run(ROOT / folder / name, stem or "*"))
     return nbformat.reads(made, 4)
 
 
-def _run(beside: Path) -> str:
+def _run(beside: Path, stem: str) -> str:
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(beside, Path(place, beside.name)))  # lessons write files
-        notebook = nbformat.read(next(copy.glob("*.ipynb")), 4)
+        notebook = nbformat.read(next(copy.glob(f"{stem}.ipynb")), 4)
         notebook_client(notebook, 600).execute(cwd=str(copy))
     return nbformat.writes(notebook)
 

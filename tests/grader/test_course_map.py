@@ -98,6 +98,23 @@ def test_the_pages_of_the_bridge_come_after_the_lessons_in_one_part(course):
     assert '<h3><a href="course/bridge/02_gazebo.ipynb">B2 In Gazebo</a></h3>' in found._repr_html_()
 
 
+def test_a_lesson_with_two_notebooks_is_one_card_with_both(course):
+    write(course / "course/02_topics/lesson.ipynb", "Lesson 2a: topics", code(run=1))
+    write(course / "course/02_topics/driving.ipynb", "Lesson 2b: topics that drive", code())
+    (course / "course/02_topics/goal.svg").write_text("<svg>first</svg>")
+    (course / "course/02_topics/driving.svg").write_text("<svg>second</svg>")
+    found = course_map(course)
+    assert repr(found).splitlines()[2:4] == [
+        "2a topics (lesson), ✔ done",
+        "2b topics that drive (lesson), 0 of 1 cells run",
+    ]
+    assert [part.picture for part in found.chapters[0].parts] == ["", "<svg>second</svg>"]
+    titles = re.findall(r'<h3><a href="course/02_topics/(.*?)">(.*?)</a></h3>', found._repr_html_())
+    assert titles == [("lesson.ipynb", "2a Topics"), ("driving.ipynb", "2b Topics that drive")]
+    write(course / "course/02_topics/lesson.ipynb", "Lesson 2a: topics", code())
+    assert course_map(course).chapters[0].parts[1].picture == "<svg>first</svg>"
+
+
 def test_a_new_version_of_a_changed_notebook_is_reported(course):
     page = course_map(course)._repr_html_()
     first = '<a href="course/02_topics/lesson.ipynb">course/02_topics/lesson.ipynb</a>'

@@ -23,14 +23,19 @@ def statements(cells: dict[str, Cell]) -> Iterator[tuple[str, str]]:
         if cell.kind == "code":
             if POOR_CODE.search(cell.source):
                 yield name, ""
-        elif name == "summary":
+        elif _id(name) == "summary":
             yield from ((name, block) for block in blocks(cell.source) if block.startswith("- "))
-        elif name == "check":
+        elif _id(name) == "check":
             yield from ((name, answer) for answer in answers(cell.source))
-        elif name != "title":  # which says what a reader can do afterwards
+        elif _id(name) != "title":  # which says what a reader can do afterwards
             if GOES_WRONG.search(cell.source):
                 yield name, ""
             yield from ((name, words) for words in sentences(cell.source) if TRIGGER.search(words))
+
+
+def _id(name: str) -> str:
+    """The id of a cell, without the name of its notebook."""
+    return name.rpartition(".")[2]
 
 
 def without_row(table: Table, cells: dict[str, Cell]) -> list[str]:
@@ -38,7 +43,7 @@ def without_row(table: Table, cells: dict[str, Cell]) -> list[str]:
     quotes = [quote for rule in table.rules for quote in rule.quotes]
     found = []
     for name, words in statements(cells):
-        known = quotes if not words or name in ("summary", "check") else [*quotes, *table.no_rule]
+        known = quotes if not words or _id(name) in ("summary", "check") else [*quotes, *table.no_rule]
         if not any(cell == name and (not words or quoted in words) for cell, quoted in known):
             found.append(f"{name}: {words or 'says what goes wrong'}")
     return found

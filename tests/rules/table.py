@@ -3,7 +3,8 @@
 A row, [[rule]], has
 
     rule        the rule, in one sentence
-    in.CELL     where the lesson states it: the id of a cell, and words of one sentence in it, or a list
+    in.CELL     where the lesson states it: the id of a cell, and words of one sentence in it, or a list; of a
+                cell in another notebook than lesson.ipynb, such as driving.ipynb: in.driving.CELL
     check       the check that looks for it, as "TOPIC/EXERCISE: FUNCTION"; a program that fails with an error
                 loses its points at "TOPIC/EXERCISE: runs", a package at "TOPIC/EXERCISE: is_built", and
                 without the types that it uses at "TOPIC/EXERCISE: has_types"
@@ -26,7 +27,9 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from grader.course_notebooks import FIRST, course_order
 from grader.diagnosis.fault import Fault
 from tests.exercises.score_tables import page
 from tests.exercises.seeds import exercise_of, right_nodes
@@ -102,8 +105,13 @@ def _names(value: str | list[str]) -> tuple[str, ...]:
     return (value,) if isinstance(value, str) else tuple(value)
 
 
-def _quotes(cells: dict[str, str | list[str]]) -> tuple[tuple[str, str], ...]:
-    return tuple((cell, words) for cell, value in cells.items() for words in _names(value))
+def _quotes(cells: dict[str, Any], notebook: str = "") -> tuple[tuple[str, str], ...]:
+    """Pairs (cell, words). cells: by id; or by the name of a notebook, and by id inside it."""
+    found: list[tuple[str, str]] = []
+    for cell, value in cells.items():
+        inside = isinstance(value, dict)
+        found += _quotes(value, f"{cell}.") if inside else ((notebook + cell, each) for each in _names(value))
+    return tuple(found)
 
 
 @functools.cache
@@ -121,9 +129,13 @@ class Cell:
 
 
 def cells_of(lesson: str) -> dict[str, Cell]:
-    """The cells of a lesson by their ids, in order."""
-    notebook = json.loads((ROOT / "course" / lesson / "lesson.ipynb").read_text(encoding="utf-8"))
-    return {cell["id"]: Cell(cell["cell_type"], "".join(cell["source"])) for cell in notebook["cells"]}
+    """The cells of a lesson by their ids, in order; those of driving.ipynb as driving.ID."""
+    found = {}
+    for path in sorted((ROOT / "course" / lesson).glob("*.ipynb"), key=course_order):
+        notebook = "" if path.name == FIRST else f"{path.stem}."
+        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+            found[notebook + cell["id"]] = Cell(cell["cell_type"], "".join(cell["source"]))
+    return found
 
 
 def problems(table: Table, cells: dict[str, Cell]) -> Iterator[str]:

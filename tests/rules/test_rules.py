@@ -95,6 +95,7 @@ def test_a_quote_is_a_row_for_its_sentence_alone():
     [
         ({}, ""),
         ({"in.beet": '"It beats"'}, "“It beats”: the lesson has no cell beet"),
+        ({"in.driving.beat": '"fast"'}, "“fast”: the lesson has no cell driving.beat"),
         ({"in.beat": '["It beats,", "fast"]'}, "“fast”: the cell beat doesn't say so"),
         ({"check": ""}, "Expected a check such as “nodes/heart: beats”, or `unchecked`, saw “”"),
         ({"check": '"heart"'}, "Expected a check such as “nodes/heart: beats”, or `unchecked`, saw “heart”"),

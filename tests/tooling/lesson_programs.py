@@ -28,10 +28,16 @@ ROOT = Path(__file__).resolve().parents[2]
 OURS = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
 
 
+def notebook_file(lesson: str) -> Path:
+    """The notebook of a lesson, such as "01_nodes"; of one with several, such as "04_actions/driving"."""
+    return ROOT / "course" / (f"{lesson}.ipynb" if "/" in lesson else f"{lesson}/lesson.ipynb")
+
+
 def definitions(lesson: str) -> str:
     """What the cells of a lesson define, as a module: no runs, and nothing that needs our packages."""
-    folder = ROOT / "course" / lesson
-    notebook = json.loads((folder / "lesson.ipynb").read_text(encoding="utf-8"))
+    file = notebook_file(lesson)
+    folder = file.parent
+    notebook = json.loads(file.read_text(encoding="utf-8"))
     cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
     written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
     missing, kept, ours = {"print", "display", *written}, [], set()
@@ -92,11 +98,11 @@ def _defined(statement: ast.stmt) -> Iterator[str]:
 
 def lesson(name: str) -> dict[str, Any]:
     """The names that a lesson defines, in this process."""
-    folder = ROOT / "course" / name
+    folder = notebook_file(name).parent
     os.chdir(folder)
     sys.path.insert(0, str(folder))
     found: dict[str, Any] = {"__name__": "lesson"}
-    exec(compile(definitions(name), f"{name}/lesson.ipynb", "exec"), found)
+    exec(compile(definitions(name), f"{name}.ipynb", "exec"), found)
     return found
 
 

@@ -14,7 +14,7 @@ def motor():
     """The class Motor of lesson 12."""
     names = {"LifecycleNode": LifecycleNode, "TransitionCallbackReturn": TransitionCallbackReturn}
     names["Twist"] = Twist
-    exec(dict(cells("course", "12_safety"))["life-class"], names)
+    exec(dict(cells("course", "12_safety/lesson"))["life-class"], names)
     return names["Motor"]
 
 

@@ -14,6 +14,7 @@ COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
 BLINKS = "']: on' in errors and ']: off' in errors"
 STOPPED = "received['/cmd_vel'][-1] == 0.0"
 A_WHILE = "len(received['/odom']) > 40"  # where there is nothing to wait for
+LESSONS = sorted(f"{path.parent.name}/{path.stem}" for path in ROOT.glob("course/[0-9]*/*.ipynb"))
 BOTH = pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
 
 
@@ -51,7 +52,7 @@ def told(
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("lesson", sorted(path.parent.name for path in ROOT.glob("course/*/lesson.ipynb")))
+@pytest.mark.parametrize("lesson", LESSONS)
 def test_what_a_lesson_defines_can_be_taken_out_of_it(lesson):
     assert "import " in definitions(lesson)
 
@@ -72,9 +73,9 @@ def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
 
 
 def test_the_server_of_lesson_4_drives(yard, tmp_path):
-    before = told(yard, tmp_path / "nothing", "04_actions", [])["received"]["/odom"][-1]
+    before = told(yard, tmp_path / "nothing", "04_actions/driving", [])["received"]["/odom"][-1]
     until = f"'canceled after' in errors and max(received['/odom']) > {before}"
-    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], until=until)
+    found = told(yard, tmp_path / "errors", "04_actions/driving", ["whole.main", "Nervous"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
     assert float(re.search(r"canceled after ([\d.]+) m", found["errors"])[1]) > 0
     assert max(found["received"]["/odom"]) > before
@@ -133,7 +134,7 @@ def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path
 @pytest.mark.soak
 def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
     names, until = ["whole.main", "SpinServer", "Patrol"], "errors.count(': done') >= 4"
-    found = told(yard, tmp_path / "errors", "04_actions", names, until=until)
+    found = told(yard, tmp_path / "errors", "04_actions/driving", names, until=until)
     assert found["ended"] == [0, 0, 0], found["errors"]
     assert found["errors"].count(": done") == 4
 

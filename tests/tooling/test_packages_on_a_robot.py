@@ -1,6 +1,7 @@
-"""The package of lesson 11 as its cells write it, built and launched in a terminal beside `python -m sim`."""
+"""The package of lesson 11 as its cells write it; built and launched in a terminal beside `python -m sim`."""
 
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,20 +12,25 @@ import pytest
 from tests.patience import PATIENCE
 from tests.sim.standalone.programs import environment, robot
 
-pytestmark = pytest.mark.soak  # builds a package, and launches it in real time
-
-LESSON = Path(__file__).parents[2] / "course" / "11_packages" / "lesson.ipynb"
+LESSON = Path(__file__).parents[2] / "course" / "11_packages"
+PACKAGE = "%%writefile ws/src/my_robot/"
 LAUNCH = f"ros2 launch my_robot one.launch.yaml gap:=1.0 sigterm_timeout:={PATIENCE}"
 IN_A_TERMINAL = f"source ws/install/setup.bash && exec {LAUNCH}"
 
 
+def magics(notebook):
+    """The first line of each cell of lesson 11, and the rest of it."""
+    cells = json.loads((LESSON / notebook).read_text("utf-8"))["cells"]
+    return ["".join(cell["source"]).partition("\n")[::2] for cell in cells]
+
+
 def write_workspace(folder):
-    """Write what the lesson's cells write of my_robot."""
-    for cell in json.loads(LESSON.read_text("utf-8"))["cells"]:
-        first, _, text = "".join(cell["source"]).partition("\n")
+    """Write what the cells of the second notebook write of my_robot."""
+    shutil.copytree(LESSON / "finished", folder / "finished")
+    for first, text in magics("launching.ipynb"):
         if first == "%%bash":
             subprocess.run(["bash", "-ec", text], cwd=folder, env=terminal(), check=True)
-        elif first.startswith("%%writefile ws/src/my_robot/"):
+        elif first.startswith(PACKAGE):
             (folder / first.split()[1]).write_text(text)
 
 
@@ -35,6 +41,15 @@ def terminal(**more):
     return words | {"PATH": f"{sys.prefix}/bin:{words['PATH']}"}
 
 
+def test_the_second_notebook_begins_with_the_files_that_the_first_one_writes():
+    written = {first.rpartition("/")[2]: text for first, text in magics("lesson.ipynb") if PACKAGE in first}
+    finished = {path.name: path.read_text("utf-8") for path in (LESSON / "finished").iterdir()}
+    assert {name: text.rstrip() for name, text in written.items()} == {
+        name: text.rstrip() for name, text in finished.items()
+    }
+
+
+@pytest.mark.soak  # it builds a package, and launches it in real time
 def test_the_package_of_lesson_11_drives_a_robot_until_ctrl_c(tmp_path):
     write_workspace(tmp_path)
     build = ["colcon", "build", "--packages-select", "my_robot"]

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import nbformat
 
-from grader.course_notebooks import BRIDGE
+from grader.course_notebooks import BRIDGE, course_order
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute
 from grader.work_folder import student_files
@@ -60,7 +60,7 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
     report: called with a line for each notebook that is executed. Raises CommandFailed.
     """
     notebooks = {"course": [], "exercises": []}
-    for source in student_files(course):
+    for source in sorted(student_files(course), key=course_order):
         name = source.relative_to(course)
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)

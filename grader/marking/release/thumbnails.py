@@ -1,5 +1,7 @@
 """Draws the picture of each lesson's goal, which the start page shows: course/NN_TOPIC/goal.svg.
 
+Of a lesson with several notebooks, each has a picture: that of driving.ipynb is driving.svg.
+
     python -m grader.marking.release.thumbnails [NN_TOPIC ...]
 
 It runs the lesson up to the cell that shows the goal, and draws that cell's recording. The cell is the first
@@ -15,17 +17,18 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
+from grader.course_notebooks import course_order, picture_of
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute_notebook
 
-FILE = "goal.svg"
-LESSONS = "course/[0-9][0-9]_*/lesson.ipynb"
+LESSONS = "course/[0-9][0-9]_*/*.ipynb"
 # Lessons whose goal is a diagram in text: the cell that shows it later, and how it is drawn.
 SHOWN = {
-    "02_topics": ("together-run", "graph"),
-    "03_services": ("set-run", "world"),
-    "04_actions": ("together-run", "world"),
-    "06_navigator": ("action-client", "world"),
+    "02_topics/lesson": ("together-run", "graph"),
+    "03_services/lesson": ("set-run", "world"),
+    "04_actions/lesson": ("whole-run", "graph"),
+    "04_actions/driving": ("together-run", "world"),
+    "06_navigator/lesson": ("action-client", "world"),
 }
 DRAWINGS = {"plot_graph": "graph", "plot_logs": "log"}  # by the function of the cell's last line
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
@@ -34,7 +37,7 @@ SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
 def draw_goal(lesson: Path) -> str:
     """The SVG of a lesson's goal. Raises CommandFailed if the lesson shows none, or can't be executed."""
     notebook = nbformat.read(lesson, 4)
-    index, recording, drawing = find_goal(lesson.parent.name, notebook.cells)
+    index, recording, drawing = find_goal(f"{lesson.parent.name}/{lesson.stem}", notebook.cells)
     notebook.cells = [cell for cell in notebook.cells[: index + 1] if cell.cell_type == "code"]
     last = notebook.cells[-1]
     code = f"from sim.view.thumbnail import thumbnail\nprint(thumbnail({recording}, {drawing!r}))"
@@ -55,7 +58,8 @@ def _errors(cells: Sequence[NotebookNode]) -> list[str]:
 def find_goal(name: str, cells: Sequence[NotebookNode]) -> tuple[int, str, str]:
     """The index of the cell with the goal, the expression of its recording, and how to draw it.
 
-    name: the lesson's folder. Raises CommandFailed if there is none.
+    name: the lesson's folder and notebook, such as "04_actions/driving". Raises CommandFailed if there is no
+    such cell.
     """
     wanted, drawing = SHOWN.get(name, ("", ""))
     for index, cell in enumerate(cells):
@@ -100,15 +104,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser("python -m grader.marking.release.thumbnails", description=description)
     parser.add_argument("lessons", nargs="*", metavar="NN_TOPIC", help="default: all lessons")
     chosen = parser.parse_args(arguments).lessons
-    for lesson in sorted(Path().glob(LESSONS)):
+    for lesson in sorted(Path().glob(LESSONS), key=course_order):
         if chosen and lesson.parent.name not in chosen:
             continue
         try:
-            (lesson.parent / FILE).write_text(draw_goal(lesson), encoding="utf-8")
+            picture_of(lesson).write_text(draw_goal(lesson), encoding="utf-8")
         except CommandFailed as error:
             print(error, file=sys.stderr)
             return 1
-        print(lesson.parent / FILE)
+        print(picture_of(lesson))
     return 0
 
 

@@ -5,12 +5,13 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from grader.course_notebooks import picture_of
 from grader.marking.errors import CommandFailed
 from grader.marking.release import thumbnails
 
 ROOT = Path(__file__).parents[3]
-LESSONS = sorted(path.parent.name for path in ROOT.glob(thumbnails.LESSONS))
-QUICK = ("00_robot", "01_nodes")
+LESSONS = [f"{path.parent.name}/{path.stem}" for path in sorted(ROOT.glob(thumbnails.LESSONS))]
+QUICK = ("00_robot/lesson", "01_nodes/lesson")
 
 
 def lesson(*sources: str) -> list[nbformat.NotebookNode]:
@@ -24,8 +25,8 @@ def lesson(*sources: str) -> list[nbformat.NotebookNode]:
     "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.soak) for name in LESSONS]
 )
 def test_the_picture_of_a_lesson_is_that_of_its_goal(name):
-    folder = ROOT / "course" / name
-    assert thumbnails.draw_goal(folder / "lesson.ipynb") == (folder / thumbnails.FILE).read_text("utf-8")
+    notebook = ROOT / "course" / f"{name}.ipynb"
+    assert thumbnails.draw_goal(notebook) == picture_of(notebook).read_text("utf-8")
 
 
 @pytest.mark.parametrize(
@@ -47,8 +48,8 @@ def test_a_lesson_without_a_goal_is_named():
         thumbnails.find_goal("99_new", lesson("x = 1", "print(x)", ""))
     assert str(error.value) == f'99_new has no picture: a cell whose id begins with "goal" {must}'
     with pytest.raises(CommandFailed) as error:
-        thumbnails.find_goal("02_topics", lesson("plot_graph(x)"))
-    assert str(error.value) == f"02_topics has no picture: the cell 'together-run' {must}"
+        thumbnails.find_goal("02_topics/lesson", lesson("plot_graph(x)"))
+    assert str(error.value) == f"02_topics/lesson has no picture: the cell 'together-run' {must}"
 
 
 def test_a_goal_that_cannot_be_run_is_reported(tmp_path, monkeypatch, capsys):
