@@ -10,6 +10,7 @@ from tests.exercises.score_tables import graded_exercises, notebook_run
 
 ROOT = Path(__file__).parents[2]
 WIDGET = "application/vnd.jupyter.widget-view+json"
+NOT_LIVE = ("interactive(", "HBox(", "**Predict:**")
 LESSONS = sorted(ROOT.glob("course/[0-9]*/*.ipynb"))
 NAMES = [f"{path.parent.name}/{path.stem}" for path in LESSONS]
 # One that plays; `make solutions` runs every lesson for each change that is proposed.
@@ -25,9 +26,9 @@ def cells(folder, name):
 
 
 def is_live(output):
-    """Whether this is a live picture; sliders and predictions are widgets, too, but need no end."""
+    """Whether this is a live picture; sliders, buttons and predictions are widgets, too, but need no end."""
     data = output.get("data", {})
-    return WIDGET in data and not data["text/plain"].startswith(("interactive(", "**Predict:**"))
+    return WIDGET in data and not data["text/plain"].startswith(NOT_LIVE)
 
 
 @pytest.mark.parametrize("lesson", RUNS)
