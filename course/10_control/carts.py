@@ -24,7 +24,7 @@ def said_of(recording):
     fell = next((stamp for stamp, angle in angles if angle > 0.5), None)
     if fell is not None:
         return f"falls at {fell:.2f} s"
-    return f"widest angle {max(angle for _, angle in angles):.2f} rad"
+    return f"widest angle {max((angle for _, angle in angles), default=0.0):.2f} rad"
 
 
 class Slope(Node):
