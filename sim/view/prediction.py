@@ -15,7 +15,7 @@ from typing import Any
 
 import anywidget
 import traitlets
-from IPython.display import DisplayHandle, Markdown, display
+from IPython.display import DisplayHandle, display
 
 from sim.notebook import in_notebook
 from sim.view.javascript import script
@@ -133,7 +133,7 @@ def predict(question: str, **answers: str) -> Prediction:
 
 def _show(text: str) -> None:
     if in_notebook():
-        display(Markdown(text))
+        display(_bundle(text), raw=True)
     else:
         print(text)
 

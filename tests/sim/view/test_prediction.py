@@ -1,7 +1,6 @@
 import json
 
 import pytest
-from IPython.display import Markdown
 
 from sim.view import predict, prediction
 from sim.view.prediction import FILE
@@ -89,8 +88,8 @@ def test_the_outcome_is_compared_with_the_prediction(output, folder, letter, tex
     if letter:
         click(asked, letter)
     asked.outcome("c", "It measured 0.00 m.")
-    shown = output.shown[-1]
-    assert isinstance(shown, Markdown) and shown.data == f"{text} It measured 0.00 m."
+    whole = f"{text} It measured 0.00 m."
+    assert output.shown[-1] == {"text/markdown": whole, "text/plain": whole}
     assert (folder / FILE).exists() == bool(letter)
     if letter:
         entry = saved(folder)[QUESTION]
