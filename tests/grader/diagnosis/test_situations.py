@@ -146,7 +146,7 @@ class ReceivesWithoutTheFuture(Ticking):
     def tick(self):
         self.client.call_async(self.request()).add_done_callback(self.on_response)
 
-    def on_message(self):
+    def on_response(self):
         self.say("received")
 
 

@@ -50,7 +50,7 @@ class Forger(Honest):
     def try_it(self):
         for thing in gc.get_objects():
             if type(thing) is Recording:
-                thing.received[:] = [received._replace(stamp=0.0) for received in thing.received]
+                thing.published[:] = [message._replace(stamp=0.0) for message in thing.published]
                 thing.path.append(None)
                 thing.ended = None
 

@@ -231,7 +231,7 @@ def test_an_invalid_event_ends_the_run(events, words):
         ({"nodes": [5]}, "a node's name that is not a text"),
         ({"errors": [["/a", "b", "c", "d", None]]}, "an error that is not a text"),
         ({"busy_loops": [["/a", 3]]}, "a busy loop that is not a text"),
-        ({"unreceived": [["/a", 3]]}, "a node's name that is not a text"),
+        ({"unheard": [["/a", 3]]}, "a node's name that is not a text"),
         ({"parameters": [["/a", 3, True]]}, "a name that is not a text"),
         ({"timers": [["/a", -1, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
         ({"timers": [["/a", True, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
