@@ -42,7 +42,8 @@ FIRST_ERROR = {
     ),
     errors.another_domain: (
         0.0, "/another_domain", "another_domain", "ValueError",
-        "All programs of a run share one ROS domain and receive each other's messages: leave out domain_id=5.",
+        "All programs of a run share one ROS domain and receive each other's messages: "
+        "leave out domain_id=5.",
     ),
     errors.without_init: (0.0, "/forgot", "without_init", "NotInitializedException", INIT),
     errors.init_after_node: (0.0, "/early", "init_after_node", "NotInitializedException", INIT),
