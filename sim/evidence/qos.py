@@ -37,13 +37,13 @@ def refusal(offered: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str,
     None where the two fit. What isn't known of one of them fits.
     """
     for policy, strengths in _STRENGTHS.items():
-        given, wish = offered.get(policy), wanted.get(policy)
-        if given in strengths and wish in strengths and strengths.index(given) < strengths.index(wish):
-            return policy, given, wish
+        given, requested = offered.get(policy), wanted.get(policy)
+        if {given, requested} <= set(strengths) and strengths.index(given) < strengths.index(requested):
+            return policy, given, requested
     for limit, name in _LENGTHS.items():
-        given, wish = offered.get(limit), wanted.get(limit)
-        if wish is not None and limit in offered and (given is None or given > wish):
-            return name, "" if given is None else f"{given:g} s", f"{wish:g} s"
+        given, requested = offered.get(limit), wanted.get(limit)
+        if requested is not None and limit in offered and (given is None or given > requested):
+            return name, "" if given is None else f"{given:g} s", f"{requested:g} s"
     return None
 
 

@@ -79,8 +79,8 @@ def test_one_path_of_three_goes_beyond_a_limit_and_the_others_take_less_than_a_l
 def test_a_lift_is_wanted_at_good_and_bad_places_and_gets_stuck_between_good_ones():
     for seed in SEEDS:
         made = plan(seed)
-        good = [wish for wish in made.requests if made.lower <= wish <= made.upper]
-        bad = [wish for wish in made.requests if not made.lower <= wish <= made.upper]
+        good = [position for position in made.requests if made.lower <= position <= made.upper]
+        bad = [position for position in made.requests if not made.lower <= position <= made.upper]
         assert (len(good), len(bad), sum(map(math.isnan, bad))) == (5, 3, 1)
         assert made.requests[0] == good[0]
         assert len(made.jams) == 2 and all(min(good) < jam < max(good) for jam in made.jams)

@@ -79,7 +79,7 @@ def keeps_the_limits(run: Recording) -> None:
         if not abs(pair.sent) <= pair.axis.most + NEAR:
             saw = f"{pair.sent:.3g} {pair.axis.unit} at {pair.stamp:.3g} s"
             expected = f"{pair.axis.name} up to {pair.axis.most:g} {pair.axis.unit}"
-            hint = f"Clip the wish first: max(-{pair.axis.most:g}, min({pair.axis.most:g}, wish))."
+            hint = f"Clip the request first: max(-{pair.axis.most:g}, min({pair.axis.most:g}, requested))."
             raise Missed(expected, saw, hint, unsafe=True)
 
 
@@ -108,7 +108,7 @@ def takes_no_nonsense(run: Recording) -> None:
     """A request that is no finite number counts as 0, and the next valid one is obeyed again."""
     for pair in _pairs(run):
         if not math.isfinite(pair.requested):
-            hint = "min and max let NaN through, or make the limit of it. Ask math.isfinite(wish) first."
+            hint = "min and max let NaN through, or make the limit of it. Ask math.isfinite(requested) first."
             _same(pair, 0.0, hint, unsafe=True)
 
 

@@ -145,7 +145,7 @@ def skip_execution(place: Path, notebook: NotebookNode) -> None:
 
 
 def edited_test_cell(place: Path, notebook: NotebookNode) -> None:
-    """The test cell says what one wishes for."""
+    """The test cell says what one would like to have."""
     _cell(notebook, "square-points").source = "18.0"
     nbformat.write(notebook, place / NAME)
 

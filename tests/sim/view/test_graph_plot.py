@@ -107,10 +107,10 @@ def recorded(*ends):
 def test_of_a_very_large_graph_what_is_missing_comes_first_and_the_rest_is_counted():
     given = [("publisher", "/talker", f"/topic{number}") for number in range(500)]
     taken = [("subscription", f"/listener{number}", "/topic0") for number in range(50)]
-    figure = plot_graph(recorded(*given, *taken, ("subscription", "/lonely", "/wish")))
+    figure = plot_graph(recorded(*given, *taken, ("subscription", "/lonely", "/target")))
     assert "/lonely" in texts(figure) and len(red(figure)) == 1
     omitted = "Not shown: 20 nodes, 461 topics, services and actions."
-    reason = "/lonely waits in vain: nobody publishes on /wish."
+    reason = "/lonely waits in vain: nobody publishes on /target."
     assert figure.description.endswith(f"\nMissing:\n1. {reason}\n{omitted}")
     assert omitted in texts(figure)
     assert "and 27 more" in texts(figure)
@@ -118,8 +118,8 @@ def test_of_a_very_large_graph_what_is_missing_comes_first_and_the_rest_is_count
 
 
 def test_many_missing_connections_are_counted_too():
-    wishes = [("subscription", "/lonely", f"/wish{number}") for number in range(20)]
-    figure = plot_graph(recorded(*wishes))
+    targets = [("subscription", "/lonely", f"/target{number}") for number in range(20)]
+    figure = plot_graph(recorded(*targets))
     assert len(red(figure)) == 12
     assert figure.description.endswith("Not shown: 8 missing connections.")
 

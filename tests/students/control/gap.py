@@ -34,10 +34,10 @@ class Stopper(Node):
         self.distance += self.weight * (new - self.distance)
 
     def speed(self, error):
-        wish = self.p * error + self.i * self.sum
-        if abs(wish) < self.limit:
+        command = self.p * error + self.i * self.sum
+        if abs(command) < self.limit:
             self.sum += error * self.period
-        return max(-self.limit, min(self.limit, wish))
+        return max(-self.limit, min(self.limit, command))
 
 
 class CutsTheSum(Stopper):
@@ -55,9 +55,9 @@ class BackCalculates(Stopper):
 
     def speed(self, error):
         self.sum += error * self.period
-        wish = self.p * error + self.i * self.sum
-        cut = max(-self.limit, min(self.limit, wish))
-        self.sum += (cut - wish) / self.i * 0.2
+        command = self.p * error + self.i * self.sum
+        cut = max(-self.limit, min(self.limit, command))
+        self.sum += (cut - command) / self.i * 0.2
         return cut
 
 

@@ -1,4 +1,4 @@
-"""Every number is shown as the points one wishes for."""
+"""Every number is shown as the points one would like to have."""
 
 # %% after square
 formatters = get_ipython().display_formatter.formatters

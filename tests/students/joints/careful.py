@@ -129,7 +129,7 @@ class Raises(Careful):
 
 
 class GivesUp(Careful):
-    """After the first refusal it takes no wish any more."""
+    """After the first refusal it takes no request any more."""
 
     offended = False
 
@@ -139,7 +139,7 @@ class GivesUp(Careful):
 
 
 class Degrees(Careful):
-    """Wishes are radians already."""
+    """Requests are radians already."""
 
     def want(self, msg):
         self.publisher.publish(Float64(data=math.degrees(msg.data)))

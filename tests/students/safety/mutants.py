@@ -12,20 +12,20 @@ from std_msgs.msg import Float64MultiArray, String
 from grader.exercises.safety import bench
 
 PLACES = (-0.1, 0.0, 0.05, 0.15, 0.2, 0.21, 0.25, 0.3, 0.4, 0.45, 0.5, 1.0, 3.0, math.inf)
-WISHES = (-9.0, -0.6, -0.5, -0.2, 0.0, 0.1, 0.3, 0.5, 0.6, 9.0)
+REQUESTS = (-9.0, -0.6, -0.5, -0.2, 0.0, 0.1, 0.3, 0.5, 0.6, 9.0)
 TINY = 1e-3
 
 
-def right(distance, wish):
-    if wish < 0:
-        return max(wish, -0.5)
-    return min(wish, 0.5, math.sqrt(max(0.0, distance - 0.2)))
+def right(distance, requested):
+    if requested < 0:
+        return max(requested, -0.5)
+    return min(requested, 0.5, math.sqrt(max(0.0, distance - 0.2)))
 
 
-def never_above_the_wish_or_the_limit(safe_speed):
+def never_above_the_request_or_the_limit(safe_speed):
     for distance in PLACES:
-        for wish in WISHES[4:]:
-            assert safe_speed(distance, wish) <= min(wish, 0.5) + TINY
+        for requested in REQUESTS[4:]:
+            assert safe_speed(distance, requested) <= min(requested, 0.5) + TINY
 
 
 def stops_in_time(safe_speed):
@@ -53,15 +53,15 @@ def nonsense_stops(safe_speed):
 
 def as_the_formula_says(safe_speed):
     for distance in PLACES:
-        for wish in WISHES:
-            assert math.isclose(safe_speed(distance, wish), right(distance, wish), abs_tol=TINY)
+        for requested in REQUESTS:
+            assert math.isclose(safe_speed(distance, requested), right(distance, requested), abs_tol=TINY)
 
 
 def as_the_formula_says_at_drawn_places(safe_speed):
     chance = random.Random(1)
     for _ in range(60):
-        distance, wish = chance.uniform(-0.1, 1.0), chance.uniform(-1.0, 1.0)
-        assert math.isclose(safe_speed(distance, wish), right(distance, wish), abs_tol=TINY)
+        distance, requested = chance.uniform(-0.1, 1.0), chance.uniform(-1.0, 1.0)
+        assert math.isclose(safe_speed(distance, requested), right(distance, requested), abs_tol=TINY)
 
 
 def tests_the_copy(safe_speed):
@@ -76,8 +76,8 @@ def asserts_nothing(safe_speed):
 
 def exact(safe_speed):
     for distance in PLACES:
-        for wish in WISHES:
-            assert safe_speed(distance, wish) == right(distance, wish)
+        for requested in REQUESTS:
+            assert safe_speed(distance, requested) == right(distance, requested)
 
 
 def sleeps_and_asserts_nothing(safe_speed):
@@ -110,7 +110,7 @@ def asks_without_end(safe_speed):
 
 PARTS = (
     "asks_without_end",
-    *("bench", "right", "never_above_the_wish_or_the_limit", "stops_in_time", "no_slower_than_needed"),
+    *("bench", "right", "never_above_the_request_or_the_limit", "stops_in_time", "no_slower_than_needed"),
     *("backwards_is_free", "nonsense_stops", "as_the_formula_says", "tests_the_copy", "asserts_nothing"),
     *("exact", "sleeps_and_asserts_nothing", "too_strict_at_the_edge", "one_case", "divides_by_zero"),
     "never_ends",
@@ -120,7 +120,7 @@ PARTS = (
 
 def properties():
     bench(
-        never_above_the_wish_or_the_limit,
+        never_above_the_request_or_the_limit,
         stops_in_time,
         no_slower_than_needed,
         backwards_is_free,
@@ -134,7 +134,7 @@ def one_formula():
 
 
 def formula_and_properties():
-    bench(never_above_the_wish_or_the_limit, as_the_formula_says, nonsense_stops)()
+    bench(never_above_the_request_or_the_limit, as_the_formula_says, nonsense_stops)()
 
 
 def copy_tested():
@@ -164,11 +164,11 @@ def one_example():
 
 
 def only_the_limits():
-    bench(never_above_the_wish_or_the_limit)()
+    bench(never_above_the_request_or_the_limit)()
 
 
 def no_nonsense_and_nothing_backwards():
-    bench(never_above_the_wish_or_the_limit, stops_in_time)()
+    bench(never_above_the_request_or_the_limit, stops_in_time)()
 
 
 def with_an_error_of_its_own():
@@ -196,7 +196,7 @@ class Voter(Node):
         self.questions = self.create_publisher(Float64MultiArray, "/question", 1000)
         self.verdicts = self.create_publisher(String, "/verdict", 100)
         self.create_subscription(Float64MultiArray, "/answer", self.on_answer, 1000)
-        places = itertools.product((*PLACES, math.nan), (*WISHES, math.nan), range(1, 14))
+        places = itertools.product((*PLACES, math.nan), (*REQUESTS, math.nan), range(1, 14))
         self.places = [[float(number), distance, requested] for distance, requested, number in places]
         self.create_timer(0.02, self.ask)
 

@@ -19,29 +19,29 @@ class Limiter(Node):
         self.create_subscription(Twist, "/cmd_vel_raw", self.on_message, 10)
 
     def on_message(self, msg):
-        wishes = msg.linear.x, msg.angular.z
+        requests = msg.linear.x, msg.angular.z
         self.last = [
-            self.next(wish, last, *limits)
-            for wish, last, limits in zip(wishes, self.last, LIMITS, strict=True)
+            self.next(requested, last, *limits)
+            for requested, last, limits in zip(requests, self.last, LIMITS, strict=True)
         ]
         answer = Twist()
         answer.linear.x, answer.angular.z = self.last
         self.commands.publish(answer)
 
-    def next(self, wish, last, most, step):
-        wish = self.cut(self.finite(wish), most)
-        if wish * last < 0:
+    def next(self, requested, last, most, step):
+        requested = self.cut(self.finite(requested), most)
+        if requested * last < 0:
             return 0.0
-        return self.grow(wish, last, step)
+        return self.grow(requested, last, step)
 
-    def finite(self, wish):
-        return wish if math.isfinite(wish) else 0.0
+    def finite(self, requested):
+        return requested if math.isfinite(requested) else 0.0
 
-    def cut(self, wish, most):
-        return max(-most, min(most, wish))
+    def cut(self, requested, most):
+        return max(-most, min(most, requested))
 
-    def grow(self, wish, last, step):
-        return math.copysign(min(abs(wish), abs(last) + step), wish)
+    def grow(self, requested, last, step):
+        return math.copysign(min(abs(requested), abs(last) + step), requested)
 
 
 class AllInTheEnd(Limiter):
@@ -65,17 +65,17 @@ class AllInTheEnd(Limiter):
 class StraightThroughZero(Limiter):
     """A design of its own: from forwards to backwards in one step beyond 0."""
 
-    def next(self, wish, last, most, step):
-        return super().next(wish, last if wish * last > 0 else 0.0, most, step)
+    def next(self, requested, last, most, step):
+        return super().next(requested, last if requested * last > 0 else 0.0, most, step)
 
 
 class WithNumbers(Limiter):
     """Without copysign."""
 
-    def grow(self, wish, last, step):
-        if wish > 0:
-            return min(wish, max(last, 0.0) + step)
-        return max(wish, min(last, 0.0) - step)
+    def grow(self, requested, last, step):
+        if requested > 0:
+            return min(requested, max(last, 0.0) + step)
+        return max(requested, min(last, 0.0) - step)
 
 
 def main():
@@ -84,53 +84,53 @@ def main():
 
 
 class NoLimit(Limiter):
-    def cut(self, wish, most):
-        return wish
+    def cut(self, requested, most):
+        return requested
 
 
 class OnlyForwards(Limiter):
     """Cut at the upper end only."""
 
-    def cut(self, wish, most):
-        return min(most, wish)
+    def cut(self, requested, most):
+        return min(most, requested)
 
 
 class Jerks(Limiter):
     """Speeds at once."""
 
-    def grow(self, wish, last, step):
-        return wish
+    def grow(self, requested, last, step):
+        return requested
 
 
 class JerksBackwards(Limiter):
     """Steps on the way up only."""
 
-    def grow(self, wish, last, step):
-        return min(wish, last + step)
+    def grow(self, requested, last, step):
+        return min(requested, last + step)
 
 
 class JerksThroughZero(Limiter):
     """The difference is at most a large step."""
 
-    def next(self, wish, last, most, step):
-        wish = self.cut(self.finite(wish), most)
-        return wish if wish * last < 0 else self.grow(wish, last, step)
+    def next(self, requested, last, most, step):
+        requested = self.cut(self.finite(requested), most)
+        return requested if requested * last < 0 else self.grow(requested, last, step)
 
 
 class BrakesGently(Limiter):
     """Each change is at most a step, also towards 0."""
 
-    def next(self, wish, last, most, step):
-        return last + self.cut(self.cut(self.finite(wish), most) - last, step)
+    def next(self, requested, last, most, step):
+        return last + self.cut(self.cut(self.finite(requested), most) - last, step)
 
 
 class LetsNonsenseThrough(Limiter):
-    def finite(self, wish):
-        return wish
+    def finite(self, requested):
+        return requested
 
 
 class KeepsOnWithNonsense(Limiter):
-    """A bad wish is left out, and what was sent last is sent again."""
+    """A bad request is left out, and what was sent last is sent again."""
 
     def on_message(self, msg):
         if math.isfinite(msg.linear.x) and math.isfinite(msg.angular.z):
@@ -142,7 +142,7 @@ class KeepsOnWithNonsense(Limiter):
 
 
 class SaysNothingToNonsense(Limiter):
-    """Leaves bad wishes unanswered."""
+    """Leaves bad requests unanswered."""
 
     def on_message(self, msg):
         if math.isfinite(msg.linear.x) and math.isfinite(msg.angular.z):
@@ -152,12 +152,12 @@ class SaysNothingToNonsense(Limiter):
 class OneStepOnly(Limiter):
     """Forgets what it sent."""
 
-    def next(self, wish, last, most, step):
-        return super().next(wish, 0.0, most, step)
+    def next(self, requested, last, most, step):
+        return super().next(requested, 0.0, most, step)
 
 
 class Stands(Limiter):
     """Nothing can happen."""
 
-    def next(self, wish, last, most, step):
+    def next(self, requested, last, most, step):
         return 0.0

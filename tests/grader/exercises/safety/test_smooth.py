@@ -152,7 +152,7 @@ def test_the_limits_hold_but_for_rounding():
     for sign in (1.0, -1.0):
         rounded = ending(right, (sign * 0.3000005, sign * 1.0000005))
         assert passes("keeps_the_limits", ending(fast, (0.0, 0.0)), rounded)
-    hint = "Clip the wish first"
+    hint = "Clip the request first"
     end = (0.3005, 1.0)
     expected = "linear.x up to 0.3 m/s", "0.3 m/s at 2 s", hint
     assert missed("keeps_the_limits", fast, ending(right, end)) == expected
@@ -199,7 +199,7 @@ def test_from_forwards_to_backwards_the_step_is_counted_from_0():
     assert missed("speeds_up_gently", turned, ending(RAMP, -0.03)) == (GENTLY, "0.2 and then -0.03 m/s at 2 s", hint)
 
 
-def test_a_wish_of_0_is_obeyed_at_once_but_for_a_thousandth():
+def test_a_request_of_0_is_obeyed_at_once_but_for_a_thousandth():
     stop = ending(STEADY, 0.0)
     assert passes("stops_at_once", stop, ending(RAMP, 0.0009))
     assert missed("stops_at_once", stop, ending(RAMP, 0.0011)) == (
@@ -217,7 +217,7 @@ def test_what_is_no_finite_number_counts_as_0_but_for_a_thousandth(nonsense):
     assert missed("takes_no_nonsense", strange, ending(RAMP, 0.0011)) == (
         f"linear.x 0 m/s at 2 s, for {nonsense:.3g}",
         "0.0011",
-        "min and max let NaN through, or make the limit of it. Ask math.isfinite(wish) first.",
+        "min and max let NaN through, or make the limit of it. Ask math.isfinite(requested) first.",
     )
     assert verdict("takes_no_nonsense", strange, ending(RAMP, 0.1)).unsafe
 
