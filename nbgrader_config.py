@@ -1,6 +1,6 @@
 """nbgrader for this course. Run it in this folder, as its manual says: `nbgrader autograde 01_nodes`, ...
 
-solutions/ is the source and exercises/ the release. All about a class lies in class/, which git ignores.
+solutions/ is the source and exercises/ the release. Everything about a class is in class/, which git ignores.
 """
 import os
 import sys

@@ -65,7 +65,7 @@ class Score(float):
 
     @property
     def broken(self) -> list[Verdict]:
-        """Checks that failed by a mistake of ours: their `alarm` is for the instructor."""
+        """Checks that failed because of a mistake in the course: their `alarm` is for the instructor."""
         return [verdict for verdict in self.verdicts if verdict.status == "broken"]
 
     @property
@@ -93,7 +93,7 @@ class Score(float):
         with redirect_stderr():
             try:
                 return graph_of_missed_check(self.verdicts, self.recordings)
-            except Exception:  # a picture is an extra: without it the points still have to be told
+            except Exception:  # a picture is an extra: without it the points still have to be shown
                 return 0, ""
 
     @cached_property
@@ -135,15 +135,15 @@ class Score(float):
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        told = self.title, float(self), self.max, self.verdicts, self._runs, self._note
-        return page.html(*told, below=self._graph, replays=self._replays)
+        shown = self.title, float(self), self.max, self.verdicts, self._runs, self._note
+        return page.html(*shown, below=self._graph, replays=self._replays)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitizer that is strict about HTML lets the table pass.
         with redirect_stderr():
             try:
                 _show(self.pictures)
-            except Exception as error:  # a picture is an extra: without it the points still have to be told
+            except Exception as error:  # a picture is an extra: without it the points still have to be shown
                 print(f"(A picture could not be drawn: {error})")
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
 

@@ -28,19 +28,19 @@ from tests.patience import PATIENCE
 
 SECONDS = 600  # simulated ones that a test may take
 OPTIONS = ["-s", "-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:threadexception", "-W", "ignore"]
-OURS = f"{Path(__file__).parents[1] / 'sim'}{os.sep}"
+OWN = f"{Path(__file__).parents[1] / 'sim'}{os.sep}"
 OUTCOMES = "passed", "skipped", "refused", "differs"
 ANSWER_FIRST = (
     "A run asks one entity after the other, so that a client takes the answer of that very moment; rclpy"
     " looks at all at once, and the feedback comes before it. Nothing promises an order between the two."
 )
 ONE_TIME = "All clocks show the time of the run, whatever use_sim_time says."
-TESTS_BEFORE = "It goes by the rclpy.init() of the test before it; in a run each is a program of its own."
+TESTS_BEFORE = "It relies on the rclpy.init() of the test before it; in a run each is a program of its own."
 NO_COMPUTING = "Between two looks at a clock no time passes: computing takes none."
 FOUR_THREADS = (
     "A MultiThreadedExecutor() has four threads, not the machine's number of cores: equal runs are equal."
 )
-NO_SIGNALS = "init() leaves the signals alone: Ctrl-C belongs to the notebook, or to whoever started the run."
+NO_SIGNALS = "init() leaves the signals alone: Ctrl-C belongs to the notebook or another program."
 KNOWN = {
     "test_action_server.py::TestActionServer::test_different_feedback_type_raises": ANSWER_FIRST,
     "test_action_server.py::TestActionServer::test_feedback": ANSWER_FIRST,
@@ -111,7 +111,7 @@ def _outcome(reports: list[Any]) -> tuple[str, str]:
     if bad is None:
         return ("skipped" if any(report.skipped for report in reports) else "passed"), ""
     crash = getattr(bad.longrepr, "reprcrash", None)
-    refused = crash is not None and crash.path.startswith(OURS)
+    refused = crash is not None and crash.path.startswith(OWN)
     words = crash.message if crash is not None else str(bad.longrepr)
     return ("refused" if refused else "differs"), words.strip().split("\n")[0]
 

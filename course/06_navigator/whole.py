@@ -67,7 +67,7 @@ class Navigator(Node):
 
     @property
     def is_ready(self):
-        """Whether somebody has published the map, and where the robot is in it."""
+        """Whether the map and the robot's place in it have been published."""
         return self.grid is not None and self.buffer.can_transform("map", "base_link", Time())
 
     @property
@@ -176,7 +176,7 @@ def path_message(points):
 
 
 def main(args=None):
-    """Run the navigator until it is told to end, and stop the robot then."""
+    """Run the navigator until Ctrl-C or SIGTERM, then stop the robot."""
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     node = Navigator()

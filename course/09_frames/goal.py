@@ -19,7 +19,7 @@ class Localization(Node):
         self.broadcaster.sendTransform([self.start(frame, *place) for frame, place in STARTS.items()])
 
     def start(self, frame, x, y):
-        """Where a frame lies in the map; it is not turned."""
+        """The position of a frame in the map; it is not rotated."""
         sent = TransformStamped(child_frame_id=frame)
         sent.header.frame_id = "map"
         sent.transform.translation.x, sent.transform.translation.y = x, y

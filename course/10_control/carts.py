@@ -28,7 +28,7 @@ def said_of(recording):
 
 
 class Slope(Node):
-    """Hears /speed (Float64, m/s), and drives a robot up a slope, which takes away 8 cm/s."""
+    """Subscribes to /speed (Float64, m/s), and drives a robot up a slope, which takes away 8 cm/s."""
 
     def __init__(self):
         super().__init__("slope")

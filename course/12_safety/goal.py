@@ -22,7 +22,7 @@ class Latch(Node):
         self.stopped = self.stopped or msg.data
 
     def reset(self, request, response):
-        """Somebody has looked, and says that all is well."""
+        """A person has checked the robot and resets it."""
         self.stopped, response.success = False, True
         return response
 

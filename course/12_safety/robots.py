@@ -11,7 +11,7 @@ from std_srvs.srv import Trigger
 from sim import World, since_start
 
 YARD = World.load("yard")
-TRUSTING = replace(YARD, robot=replace(YARD.robot, command_timeout=1000.0))  # obeys the last command for ever
+TRUSTING = replace(YARD, robot=replace(YARD.robot, command_timeout=1000.0))  # obeys the last command forever
 HALL = World(
     name="hall",
     card="Picture: A hall with a wall ahead.",
@@ -53,7 +53,7 @@ class Stubborn(Driver):
 
 
 class Button(Timed):
-    """Is pressed (Bool on /emergency) from 2 s to 3 s; at 5 s somebody asks for /reset."""
+    """Is pressed (Bool on /emergency) from 2 s to 3 s; at 5 s /reset is called."""
 
     def __init__(self):
         super().__init__("button")

@@ -17,7 +17,7 @@ from warehouse_msgs.msg import Order
 
 
 class Perception(Node):
-    """Says where the robot is, what stands near it, and where somebody walks or walked a moment ago."""
+    """Publishes where the robot is, what is near it, and where people walk or walked a moment ago."""
 
     def __init__(self):
         super().__init__("perception")
@@ -115,7 +115,7 @@ class Decision(Node):
 
 
 class Control(Node):
-    """Drives to /goal_pose, and stands while somebody walks near or while it knows too little."""
+    """Drives to /goal_pose, and stops while a person walks nearby or while it knows too little."""
 
     def __init__(self):
         super().__init__("control")
@@ -135,7 +135,7 @@ class Control(Node):
         self.floor = Floor(grid)
 
     def on_people(self, people):
-        """Where somebody walks."""
+        """Where people walk."""
         self.people = [flat(pose)[:2] for pose in people.poses]
 
     def on_obstacles(self, obstacles):
@@ -158,7 +158,7 @@ class Control(Node):
             self.way = self.floor.way(self.pose[:2], self.goal, self.obstacles)
 
     def is_safe(self):
-        """Whether what is known is new, and nobody walks near."""
+        """Whether what is known is recent, and no person is nearby."""
         age = seconds(self.get_clock().now().to_msg()) - self.received
         return age < 0.5 and all(math.dist(self.pose[:2], place) > 1.5 for place in self.people)
 
@@ -177,7 +177,7 @@ PROGRAMS = {"perception": Perception, "decision": Decision, "control": Control}
 
 
 def main(name):
-    """Run one of the three, by its name, until it is told to end."""
+    """Run one of the three, by its name, until Ctrl-C or SIGTERM."""
     rclpy.init()
     node = PROGRAMS[name]()
     try:

@@ -169,7 +169,7 @@ def _goes_one_way(goal: Goal, field: str, sign: int) -> None:
 def cancels(recording: Recording, action: str, *, within: Seconds = 1.0, where: Picks = _all) -> list[Goal]:
     """Every goal that a client wants to cancel ends as canceled within so many seconds of that.
 
-    Raises Missed for the first that doesn't; when nobody wanted to cancel one as `no_data`.
+    Raises Missed for the first that doesn't; when no goal was to be canceled as `no_data`.
     """
     asked = [goal for goal in _goals(recording, action, where) if goal.at(CANCEL_REQUESTED) is not None]
     if not asked:
@@ -208,7 +208,7 @@ def _named(goal: Goal) -> str:
 def state(goal: Goal) -> str:
     """How far a goal came, in words: "succeeded at 4 s"."""
     if not goal.status:
-        return "no decision on it" if goal.server else "nobody took the goal"
+        return "no decision on it" if goal.server else "no server took the goal"
     if goal.over:
         return f"{goal.status} at {goal.at(goal.status):.3g} s"
     return f"still {goal.status} at the end"

@@ -42,7 +42,7 @@ class Missed(Exception):
     measured: with a credit, what checks that come after this one are handed.
     typo: a name that was misspelt, and the right one; or the type Float32 where Float64 is wanted, or
         the other way round.
-    unsafe: the robot did what may hurt somebody: then the exercise gives no more than a part of its points.
+    unsafe: the robot did what may hurt a person: then the exercise gives no more than a part of its points.
     """
 
     def __init__(

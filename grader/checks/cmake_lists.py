@@ -115,7 +115,7 @@ def _is_true(word: str, known: Mapping[str, str]) -> bool:
 
 
 def _put_in(words: list[str], known: dict[str, str]) -> Iterator[str]:
-    """The words with variables. Where ; stands in one it becomes several: so commands take lists."""
+    """The words with variables. One with ; becomes several, since that is how commands take lists."""
     size = 0
     for word in words:
         whole = _VARIABLE.sub(lambda found: known.get(found[1], ""), word)

@@ -18,7 +18,7 @@ class _Words(NamedTuple):
     other: str
     what: str
     type: str
-    nobody: str
+    none: str
     instead: str
 
 
@@ -50,10 +50,10 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
         raise Missed(expected, f"type {wrong.type} on {name}", hint, typo=typo)
     if not found:
         connected = {end.name for end in recording.graph.ends(words.other)}
-        # a connected one is no slip
+        # a connected one is no typo
         others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - connected)
         near = closest_ros_name(name, others)
-        saw = words.nobody + (f"; {words.instead.format(', '.join(others))}" if others else "")
+        saw = words.none + (f"; {words.instead.format(', '.join(others))}" if others else "")
         hint, typo = (describe_difference(near, name), (near, name)) if near else ("", None)
         raise Missed(expected, saw, hint, typo=typo)
     return found

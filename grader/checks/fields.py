@@ -1,4 +1,4 @@
-"""Values, such as fields of messages and requests: told in words, and compared with what they should be."""
+"""Values, such as fields of messages and requests: described in words and compared with the expected ones."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ PARTS = {
 }
 END, MARK = "---", "\ufeff"  # the line that ends a part; what some editors put before a text
 MOST, LONGEST = 10_000, 200  # bytes of a definition, characters of a line
-# The same as rosidl's own pattern, which needs for ever to refuse a long name.
+# The same as rosidl's own pattern, which takes forever to refuse a long name.
 CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
 DASHES = "A line with three dashes, and nothing else, not even a space, stands between"
 TYPES = "Types are bool, string, float64, uint8 and so on, a message of this package, or PACKAGE/Name."

@@ -52,7 +52,7 @@ def installs_by_itself(run: PackageRun) -> None:
             what = next((what for what in pairs if what in line), "package.xml")
             raise Missed(
                 f"{pairs[what]} in data_files",
-                f"none: colcon did it in its place, and says that it won't for ever ({what})",
+                f"none: colcon installed it instead, and warns that it won't always ({what})",
                 "Add this pair to data_files in setup.py, with a comma after it.",
             )
 

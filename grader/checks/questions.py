@@ -1,4 +1,4 @@
-"""Questions that a shift in a warehouse asks whoever built the robot: what happened and when, but not why."""
+"""Questions about a shift in a warehouse, for the robot's author: what happened and when, not why."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def questions(recording: Recording) -> list[Question]:
 
 
 def _near_a_person(recording: Recording) -> Question | None:
-    """The first touch, or else the moment at which the robot drove nearest to somebody."""
+    """The first touch, or else the moment at which the robot drove nearest to a person."""
     touch = next((contact.stamp for contact in recording.contacts if contact.what == "person"), None)
     if touch is not None:
         text = "which program should have let it stand before, and what did that one know?"

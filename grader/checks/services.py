@@ -55,7 +55,7 @@ def responds(
     right: gives the fields of the right response and their values for a request, such as
     `lambda request: {"sum": request.a + request.b}`; other fields may be anything.
     where: picks the calls that are judged.
-    Raises Missed for the first that is not, and when nobody offers the service; without calls as `no_data`.
+    Raises Missed for the first that is not, and when no node offers the service; without calls as `no_data`.
     """
     asked = [call for call in recording.calls_of(service) if where(call) and _due(recording, call, within)]
     if not asked:
@@ -96,7 +96,7 @@ def _no_answer(call: Call) -> str:
         return f"an answer after {call.answered - _began(call):.3g} s"
     if call.raised:
         return f"the callback raised {call.raised}"
-    return "no answer" if call.taken is not None else "nobody took the request"
+    return "no answer" if call.taken is not None else "no server took the request"
 
 
 def call_text(call: Call) -> str:

@@ -20,7 +20,7 @@ class Job(NamedTuple):
     """One order: when it came, by when it was wanted, and when it was picked up and over; None is never.
 
     status: waiting, picked up, delivered, expired or canceled, as it was at the end. robot: who picked it up,
-    by name; "" where nobody did.
+    by name; "" where none did.
     """
 
     id: int

@@ -14,16 +14,16 @@ from sim.evidence import Call, Goal, Recording
 
 def evidence_of(recording: Recording) -> Recording:
     """The recording without what was staged."""
-    ours = {kind: owned(recording, kind) for kind in KINDS}
+    names = {kind: owned(recording, kind) for kind in KINDS}
     ends = [
-        end for end in recording.graph.endpoints if end.from_course or end.name not in ours.get(end.kind, ())
+        end for end in recording.graph.endpoints if end.from_course or end.name not in names.get(end.kind, ())
     ]
     return replace(
         recording,
         published=[
             received
             for received in recording.published
-            if received.from_course or received.topic not in ours["publisher"]
+            if received.from_course or received.topic not in names["publisher"]
         ],
         calls=[call for call in recording.calls if not _among_themselves(call)],
         goals=[goal for goal in recording.goals if not _among_themselves(goal)],

@@ -23,7 +23,7 @@ BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instruct
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
 EXPLAINED_BY_SPOOFING = "Not graded: it isn't clear which program sent what, see above."
 EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
-SPOOFED_TOPICS = "keeps_apart"  # the name of the line that tells of a topic or service with two owners
+SPOOFED_TOPICS = "keeps_apart"  # the name of the line about a topic or service with two owners
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def skipped(item: Check, reason: str) -> Verdict:
 
 
 def broken(item: Check, error: BaseException) -> Verdict:
-    """A verdict for a check that could not be judged because of a mistake of ours."""
+    """A verdict for a check that could not be judged because of a mistake in the course."""
     alarm = "".join(traceback.format_exception(error))
     return Verdict(item.name, item.sentence, item.points, "broken", 0.0, hint=BROKEN_HINT, alarm=alarm)
 
@@ -174,8 +174,8 @@ class _Judging:
 
 def _worst_of(group: Sequence[Verdict]) -> Verdict:
     """The one that earns least; one of a robot that was unsafe goes before all, and earns no more."""
-    told = min(group, key=lambda v: (not v.unsafe, v.credit, WORST_FIRST.index(v.status)))
-    return replace(told, credit=min(verdict.credit for verdict in group))
+    shown = min(group, key=lambda v: (not v.unsafe, v.credit, WORST_FIRST.index(v.status)))
+    return replace(shown, credit=min(verdict.credit for verdict in group))
 
 
 def worst(checks: Sequence[Check], runs: Iterable[Sequence[Verdict]]) -> list[Verdict]:

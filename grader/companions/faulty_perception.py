@@ -22,7 +22,7 @@ from sim.world.clearance import clearance
 POSE, PEOPLE, OBSTACLES, GOAL = "/robot_pose", "/people", "/obstacles", "/goal_pose"
 LASTS = 2.5  # s; each fault, and each person who is not really there
 CLOSE, FARTHER = 1.1, 2.0  # m; how far these persons are
-ALONE = 2.8  # m; nobody is nearer when a fault begins
+ALONE = 2.8  # m; no person is nearer when a fault begins
 DRIVES, FAST = 0.8, 0.2  # s and m/s of driving before the next fault
 FAULTS = "silent", "stale", "no people", "close", "farther"
 
@@ -47,7 +47,7 @@ class Localized(Node):
 class FaultyPerception(Localized):
     """Perception for the student's control, with the stamps of scans. It knows the warehouse and its boxes.
 
-    Once the robot drives, and nobody is near, the next fault comes: it publishes nothing, or its stamps no
+    Once the robot drives, and no person is near, the next fault comes: it publishes nothing, or its stamps no
     longer change, or it publishes the robot's pose but no people, or it reports a person who isn't there,
     close or not.
     """

@@ -1,4 +1,4 @@
-"""A node written for another robot, which students connect to ours."""
+"""A node written for another robot, which students connect to the course's."""
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry

@@ -1,4 +1,4 @@
-"""The programs of a delivery robot, as a student's function lists them, and a shift of theirs."""
+"""The programs of a delivery robot, as a student's function lists them, and a shift in which they run."""
 
 from collections.abc import Callable, Iterable
 from typing import Any

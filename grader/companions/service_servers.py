@@ -12,7 +12,7 @@ from std_srvs.srv import Trigger
 from grader.companions.service_clients import call_at
 from sim.evidence import since_start
 
-REFUSALS = ("The door is locked.", "Somebody stands in the way.", "The doorman is at lunch.",
+REFUSALS = ("The door is locked.", "Someone is in the way.", "The doorman is at lunch.",
             "Please wait a moment.")
 
 

@@ -14,7 +14,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from std_msgs.msg import String
 
-FAULTS = "name", "nobody", "reliability", "durability", "deadline", "mute"
+FAULTS = "name", "missing", "reliability", "durability", "deadline", "mute"
 SPACES = "kitchen", "garage", "garden", "attic", "cellar", "office", "porch", "hall", "studio", "library"
 TOPICS = "temperature", "pressure", "brightness", "humidity", "loudness", "speech", "picture", "position"
 FIRST, PAUSE = 1.0, 1.0  # s: the first complaint, and the time between two
@@ -172,6 +172,6 @@ def silent_systems(seed: int) -> list[Callable[[], Node]]:
     made: list[Callable[[], Node]] = []
     for case in cases(seed):
         made.append(functools.partial(ConfigurableDisplay, case))
-        if case.fault != "nobody":
+        if case.fault != "missing":
             made.append(functools.partial(FaultySensor, case))
     return [*made, functools.partial(ComplaintPublisher, [case.topic for case in cases(seed)])]

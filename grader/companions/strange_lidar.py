@@ -25,7 +25,7 @@ class StrangeLidar(Node):
     def measure(self) -> None:
         """Make up a scan, and publish it."""
         ranges = [random.uniform(2.5, 3.0) for _ in range(RAYS)]
-        for middle in range(0, RAYS, 15):  # something stands in each direction, in the sectors and between
+        for middle in range(0, RAYS, 15):  # an obstacle in each direction, in the sectors and between
             distance = random.uniform(0.4, 2.4)
             ranges[middle - 1], ranges[middle], ranges[(middle + 1) % RAYS] = distance, distance, distance
         (_leave, _lose, _clear, _come_near)[self.count % 4](ranges)

@@ -24,7 +24,7 @@ from sim.evidence import Recording
 
 __all__ = ["explain", "find_fault", "find_flaw"]
 
-# The likelier cause stands first: a slip in a name also leaves a publisher without listeners, and so on.
+# The likelier cause comes first: a typo in a name also leaves a publisher without subscriptions, and so on.
 DIAGNOSES = (
     activity.slow_callback,
     names.shared_name,

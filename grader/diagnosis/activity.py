@@ -1,4 +1,4 @@
-"""Nodes that do too little: callbacks that block, nodes that nobody spins, publishers that nobody uses."""
+"""Nodes that do too little: callbacks that block, nodes that don't spin, publishers that send nothing."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def unused_publisher(recording: Recording) -> str:
     """A publisher that never sent anything, in code that doesn't call publish(), or calls it too rarely."""
     calling = {row.node for row in recording.node_facts if row.fact == CALLS_PUBLISH}
     early = {timer.node for timer in recording.graph.timers if timer.period <= recording.ended.stamp}
-    timed = {timer.node for timer in recording.graph.timers} - early  # no timer of theirs fired
+    timed = {timer.node for timer in recording.graph.timers} - early  # none of their timers fired
     return _silent_publisher(recording, calling - timed)
 
 

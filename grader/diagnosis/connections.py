@@ -12,9 +12,9 @@ STREAM = 10  # more messages of one node on a topic are a stream: the first one 
 
 
 def incompatible_qos(recording: Recording) -> str:
-    """A subscription that asks for more than the publisher offers: ROS then connects nothing.
+    """A subscription that requests more than the publisher offers: ROS then connects nothing.
 
-    Between programs of ours it is what the exercise is about.
+    Between the course's programs it is what the exercise is about.
     """
     for publisher, subscription in product(recording.graph.publishers(), recording.graph.subscriptions()):
         found = refusal(publisher.qos, subscription.qos) if publisher.name == subscription.name else None
@@ -22,7 +22,7 @@ def incompatible_qos(recording: Recording) -> str:
             policy, offered, wanted = found
             return (
                 f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
-                f"{offer(policy, offered)}, {subscription.node} asks for {wanted}, so nothing arrives. "
+                f"{offer(policy, offered)}, {subscription.node} requests {wanted}, so nothing arrives. "
                 "An offer has to be as good as the request, or better: "
                 f"{_fix(publisher, subscription, found)}."
             )
@@ -58,7 +58,7 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
 
 
 def published_too_early(recording: Recording) -> str:
-    """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
+    """A message that is sent the moment its publisher or a subscription was created, and reaches no node."""
     return _too_early([row for row in recording.undelivered if _is_loss(recording, row)])
 
 
@@ -81,7 +81,7 @@ def _too_early(lost: list[UndeliveredMessage]) -> str:
 
 
 def _is_loss(recording: Recording, row: UndeliveredMessage) -> bool:
-    """Whether a student's node never says again what reached nobody: a loop says it twenty times a second."""
+    """Whether a student's node never repeats what reached no node: a loop sends it twenty times a second."""
     if row.node in recording.course_nodes:
         return False
     said = [received for received in recording.messages(row.topic, row.node) if received.stamp >= row.stamp]

@@ -60,8 +60,8 @@ def drives_against_it(recording: Recording) -> str:
             continue
         wanted = -1 if contact.side == "back" else 1
         for topic, commands in _of_robots(recording):
-            theirs = (command for command in commands if not recording.is_course_node(command.sender))
-            meant = [command for command in theirs if contact.stamp < command.stamp < soon]
+            sent = (command for command in commands if not recording.is_course_node(command.sender))
+            meant = [command for command in sent if contact.stamp < command.stamp < soon]
             if topic == "/cmd_vel" and meant and all(command.v * wanted > 0 for command in meant):
                 rays = rays_without_distance(recording, meant[-1].sender, meant[-1].stamp, NO_WAY)
                 return (

@@ -13,7 +13,7 @@ KINDS = ("timer", "subscription")  # of callbacks that may publish, the likelier
 MAX_FIRES = 2  # a timer that fired no more often in a whole run may have the wrong period
 MIN_PERIOD = 5.0  # s
 INPUTS = ("subscription", "service")  # kinds of callbacks that others cause
-# Methods that ask whether somebody else is there, has sent something, or wants it.
+# Methods that check whether another node is there, has sent something, or needs it.
 QUESTIONS = {"get_parameter", "can_transform", "service_is_ready", "server_is_ready", "services_are_ready"}
 QUESTIONS |= {
     "count_publishers",

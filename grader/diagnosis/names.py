@@ -22,7 +22,7 @@ def shared_name(recording: Recording) -> str:
         return ""
     name = min(recording.shared)
     return (
-        f"Two nodes are called {name}, yours and one that takes part in this exercise, and nobody can tell "
+        f"Two nodes are called {name}, yours and one that takes part in this exercise, and ROS can't tell "
         "them apart: give yours a name of its own, in super().__init__('...')."
     )
 
@@ -30,7 +30,7 @@ def shared_name(recording: Recording) -> str:
 def topic_name_typo(recording: Recording) -> str:
     """A topic with only publishers and one with only subscriptions, whose names are nearly the same.
 
-    Between programs of ours it is what the exercise is about.
+    Between the course's programs it is what the exercise is about.
     """
     published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
     subscribed = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
@@ -44,7 +44,7 @@ def topic_name_typo(recording: Recording) -> str:
 
 
 def service_name_typo(recording: Recording) -> str:
-    """A client for something that nobody offers, of nearly the same name as what somebody does offer."""
+    """A client for something that no node offers, with nearly the name of something that is offered."""
     for kind, client_kind, what in (
         ("service", "client", "services"),
         ("action server", "action client", "actions"),

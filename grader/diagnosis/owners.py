@@ -23,7 +23,7 @@ class Intrusion(NamedTuple):
 
 
 def owned(recording: Recording, kind: str) -> dict[str, str]:
-    """Names that programs of ours publish on or serve, each with its node. kind: as in `Endpoint`."""
+    """Names that the course's programs publish on or serve, each with its node. kind: as in `Endpoint`."""
     bundled = bundled_nodes(recording)
     ends = (
         end
@@ -47,7 +47,7 @@ def intrusions(recording: Recording) -> list[Intrusion]:
 
 
 def two_owners(recording: Recording) -> str:
-    """A topic, service or action that a program of ours and one of the student's own."""
+    """A topic, service or action that a program of the course and one of the student's own."""
     found = intrusions(recording)
     if not found:
         return ""

@@ -47,7 +47,7 @@ def own_module(error: CallbackError, recording: Recording) -> str:
     lost = re.match(r"module '(\w+)\.([\w.]+)' has no attribute '(\w+)'", error.text)
     if error.type == "AttributeError" and lost and f"{lost[1]}/{lost[1]}/__init__.py" in sources:
         return (
-            f"Somebody asks {lost[1]}.{lost[2]} for {lost[3]}, and it has none. Is it an entry point in "
+            f"{lost[1]}.{lost[2]} has no {lost[3]}. Is it an entry point in "
             "setup.py? After its `:` comes the function that starts the program."
         )
     if error.type == "TypeError" and error.text == "'module' object is not callable" and sources:

@@ -1,4 +1,4 @@
-"""Parameters that somebody gives values to or asks for, and that no node has, or has of another kind."""
+"""Parameters that are set or requested, and that no node has, or has with another type."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def unknown_parameter(recording: Recording) -> str:
 
 
 def misspelt_parameter(recording: Recording) -> str:
-    """A parameter of the student's with nearly the name by which a node of ours asks for one."""
+    """A parameter of the student's with nearly the name that a node of the course requests."""
     for call in _looked_up(recording, _GET, _SET):
         node, request = call.service.rpartition("/")[0], call.request
         names = request.names if call.service.endswith(_GET) else [one.name for one in request.parameters]
@@ -47,14 +47,14 @@ def misspelt_parameter(recording: Recording) -> str:
             near = "" if name in declared else closest_ros_name(name, own)
             if near:
                 return (
-                    f"{call.client} asks for the parameter `{name}` of {node}, which declares `{near}`: "
+                    f"{call.client} requests the parameter `{name}` of {node}, which declares `{near}`: "
                     "write it in the same way everywhere."
                 )
     return ""
 
 
 def whole_parameter(recording: Recording) -> str:
-    """A parameter of the student's that takes whole numbers only, and is given another by a node of ours."""
+    """A parameter of the student's that takes integers only, and is set to another number by the course."""
     for call in _looked_up(recording, _SET):
         for one, result in zip(call.request.parameters, call.response.results, strict=False):
             if _WHOLE.search(result.reason):
@@ -80,7 +80,7 @@ def untyped_list(recording: Recording) -> str:
 
 
 def _looked_up(recording: Recording, *services: str) -> Iterator[Call]:
-    """The calls of these services of the student's nodes that ours made, and that were answered."""
+    """The answered calls of these services of the student's nodes by nodes of the course."""
     for call in recording.calls:
         answered = call.service.endswith(services) and call.response is not None
         if answered and call.requested_by_course and not call.served_by_course:

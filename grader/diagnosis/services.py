@@ -1,4 +1,4 @@
-"""Calls of services that come to nothing: nobody there, nobody spins, nothing in the answer."""
+"""Calls of services that come to nothing: no server, no spinning, nothing in the response."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 
 
 def not_offered(recording: Recording) -> str:
-    """Something that is called in vain: no node offers it, or there is no node of that name."""
+    """A call that no node can answer: no node offers it, or there is no node of that name."""
     bundled = bundled_nodes(recording)
     offers = (("client", "service", "service"), ("action client", "action server", "action"))
     asked = {(call.client, call.service) for call in recording.calls}

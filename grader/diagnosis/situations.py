@@ -159,7 +159,7 @@ def _empty_slice(error: CallbackError) -> str:
 
 
 def _not_there(error: CallbackError) -> str:
-    """A file or a program that is looked for in vain."""
+    """A file or a program that is not found."""
     name = re.search(r"No such file or directory: '(.*)'", error.text)
     if error.type != "FileNotFoundError" or name is None:
         return ""
@@ -178,8 +178,8 @@ def _no_distance(error: CallbackError, recording: Recording) -> str:
     """A ray's inf or nan that was calculated with as if it were a distance."""
     if not re.search(r"cannot convert float (?:infinity|NaN)|math domain error", error.text):
         return ""
-    told = rays_without_distance(recording, error.node, error.stamp)
-    return f"{told} Ask `math.isfinite(distance)` before you calculate with it." if told else ""
+    found = rays_without_distance(recording, error.node, error.stamp)
+    return f"{found} Check `math.isfinite(distance)` before you calculate with it." if found else ""
 
 
 def _last_line(error: CallbackError) -> str:

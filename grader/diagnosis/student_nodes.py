@@ -48,7 +48,7 @@ class StudentNode:
         return [callback for callback, use in self.uses.items() if attribute in use.writes]
 
     def subscription(self, callback: str) -> Endpoint | None:
-        """The subscription that calls this callback; None if it can't be told from the code."""
+        """The subscription that calls this callback; None if the code doesn't show it."""
         topic = self.registered[callback].topic.strip("/") if callback in self.registered else ""
         ends = [end for end in self.subscriptions if topic and end.name.endswith(f"/{topic}")]
         return ends[0] if len(ends) == 1 else None

@@ -35,7 +35,7 @@ def parse_package_xml(sources: Sources, package: str, build_type: str = PYTHON) 
     """
     place = f"ws/src/{package}"
     if not any(path.startswith(f"{package}/") for path in sources):
-        raise InvalidFiles(f"There is no {place}. The package lies in a folder of its name, in ws/src.")
+        raise InvalidFiles(f"There is no {place}. A package has a folder of its own name in ws/src.")
     data = sources.get(f"{package}/{FILE}")
     if data is None:
         raise InvalidFiles(f"There is no {place}/{FILE}. Without it, colcon takes the folder for no package.")

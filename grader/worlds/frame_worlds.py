@@ -26,7 +26,7 @@ def parked(seed: int) -> World:
     draw = random.Random(f"parked {seed}")
     leader = OtherRobot("leader", (0.6, round(draw.uniform(-0.5, 0.5), 2), round(draw.uniform(-0.9, 0.9), 2)))
     start = -2.4, round(draw.uniform(-0.5, 0.5), 2), 0.0
-    return walled("parked", seed, FIELD, "A leader stands in a field.", start=start, robots=(leader,))
+    return walled("parked", seed, FIELD, "A leader is parked in a field.", start=start, robots=(leader,))
 
 
 def square(seed: int) -> World:

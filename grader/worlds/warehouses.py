@@ -25,7 +25,7 @@ FAIR = {  # seeds in which the solution and three other good robots miss nothing
     "restarted": (10, 11, 12, 13, 14, 15, 17, 18, 20, 22, 23, 24, 25, 26, 27, 28, 30, 31, 32),
 }
 """A shift is graded in the usual order, the others in any: where people walk, some seeds ask too much."""
-APART = 1.0  # m from its middle to where a robot or somebody begins, and to where things are fetched
+APART = 1.0  # m from its middle to where a robot or a person begins, and to where things are fetched
 
 
 @functools.lru_cache(maxsize=32)

@@ -29,7 +29,7 @@ _start_service = JupyterHub.start_service
 JupyterHub.start_service = lambda self, name, service, _=None: _start_service(self, name, service)
 c.JupyterHub.cleanup_servers = True
 
-# Users and passwords are those of the machine; nobody else may log in.
+# Users and passwords are those of the machine; no other user may log in.
 c.JupyterHub.authenticator_class = "pam"
 c.PAMAuthenticator.open_sessions = False
 c.Authenticator.allowed_users = {*settings.students, *settings.teachers}

@@ -9,16 +9,17 @@ from sim.evidence.graph import Endpoint, Graph
 from sim.evidence.qos import offer, refusal
 from sim.suggestions import closest_ros_name, describe_difference
 
-# Kinds of ends: who gives or answers, who takes or asks, and what lies between them.
+# Kinds of ends: the offering one, the requesting one, and what connects them.
 SIDES = (
     ("publisher", "subscription", "topic"),
     ("service", "client", "service"),
     ("action server", "action client", "action"),
 )
+# What a requesting end lacks, and what the node with a similar name does.
 _SILENT = {
-    "topic": "nobody publishes on {}",
-    "service": "nobody offers the service {}",
-    "action": "nobody offers the action {}",
+    "topic": ("{} receives nothing: no node publishes on {}", "publishes on"),
+    "service": ("{} gets no response: no node offers the service {}", "offers"),
+    "action": ("{} gets no response: no node offers the action {}", "offers"),
 }
 
 
@@ -53,9 +54,10 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
                 yield Missing(what, given, wanted, reason)
         if not there:
             near = closest_ros_name(wanted.name, lonely)
-            reason = f"{wanted.node} waits in vain: " + _SILENT[what].format(wanted.name)
+            lacking, does = _SILENT[what]
+            reason = lacking.format(wanted.node, wanted.name)
             if near:
-                reason += f", and {lonely[near].node} has {near}. {name_difference(lonely[near], wanted)}"
+                reason += f", but {lonely[near].node} {does} {near}. {name_difference(lonely[near], wanted)}"
             yield Missing(what, lonely.get(near), wanted, reason if near else f"{reason}.")
 
 
@@ -74,14 +76,14 @@ def _misfit(given: Endpoint, wanted: Endpoint) -> str:
     """Why two ends of one name don't connect, or nothing."""
     if given.type != wanted.type:
         return (
-            f"{given.name} is {given.type} for {given.node}, and {wanted.type} for {wanted.node}: nothing"
+            f"{given.name} has type {given.type} in {given.node} and {wanted.type} in {wanted.node}: nothing"
             " arrives."
         )
     found = refusal(given.qos, wanted.qos)
     if found is None:
         return ""
-    policy, offered, wanted_value = found
+    policy, offered, requested = found
     return (
-        f"On {given.name} {given.node} publishes {offer(policy, offered)}, and {wanted.node} asks for"
-        f" {wanted_value}: nothing arrives."
+        f"On {given.name} {given.node} publishes {offer(policy, offered)}, and {wanted.node} requests"
+        f" {requested}: nothing arrives."
     )

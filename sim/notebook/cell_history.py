@@ -38,7 +38,7 @@ class OutdatedName:
     def hint(self) -> str:
         """What to do next."""
         if self.error:
-            return "Mend that cell and run it; then run this one again."
+            return "Fix that cell and run it; then run this one again."
         return "Run that cell (Shift+Enter); then run this one again."
 
 
@@ -101,7 +101,7 @@ class CellHistory:
         error = self._errors.get(cells[-1], "")
         if error:
             return (
-                f"The cell above that defines `{name}` ended with {error}. Mend that cell and run it first."
+                f"The cell above that defines `{name}` ended with {error}. Fix that cell and run it first."
             )
         return (
             f"A cell above defines `{name}`, and it has not run: "

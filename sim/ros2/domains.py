@@ -46,7 +46,7 @@ def participant_ports(domain: int) -> set[int]:
 
 
 def active_domains() -> set[int]:
-    """The domains that have participants on this machine, as far as their ports are theirs alone."""
+    """The domains that have participants on this machine, as far as no other domain has their ports."""
     used = {port for port in _used_ports() if port >= FIRST_PORT and port not in EPHEMERAL}
     return {(port - FIRST_PORT) // PORTS for port in used if (port - FIRST_PORT) % PORTS >= UNICAST}
 

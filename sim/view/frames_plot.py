@@ -58,7 +58,7 @@ def plot_frames(recording: Recording) -> GraphPlot:
         names = " and ".join(roots)
         diagram.reasons.append(f"There are {len(roots)} trees, and no way leads between {names}.")
     if not transforms:
-        diagram.rows.append("No node told of a frame.")
+        diagram.rows.append("No node published a frame.")
         diagram.boxes[_key("")] = GraphBox("rest", ("no frames",))
     return draw_diagram(diagram, recording.failure)
 

@@ -32,7 +32,7 @@ def graph_data(
         "height": round(layout.height * PIXELS) + 2 * MARGIN,
         "boxes": [
             {
-                "kind": "ours" if box.from_course else box.kind,
+                "kind": "course" if box.from_course else box.kind,
                 "lines": list(box.lines),
                 "name": key[1],
                 "place": _pixels([center[0] - size[0] / 2, center[1] - size[1] / 2]) + _sizes(size),

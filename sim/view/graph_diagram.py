@@ -180,7 +180,7 @@ def _truncated(items: list[str]) -> list[str]:
 
 
 def _row(what: str, name: str, traffic: str, offerers: list[str], requesters: list[str]) -> str:
-    ends = [", ".join(_truncated(nodes)) or "nobody" for nodes in (offerers, requesters)]
+    ends = [", ".join(_truncated(nodes)) or "no node" for nodes in (offerers, requesters)]
     ends = ends if what == "topic" else ends[::-1]
     kind = f"{what} " if what == "topic" else ""
     return f"{kind}{name}{traffic and f' ({traffic})'}: {ends[0]} -> {ends[1]}"

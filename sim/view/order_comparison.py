@@ -62,7 +62,7 @@ def _rows(recording: Recording) -> list[Row]:
     found = []
     for run in recording.callbacks:
         at = run.stamp, run.node
-        topics = sent.pop(at, []) if ran[at] == 1 else []  # else nobody can tell which of them sent it
+        topics = sent.pop(at, []) if ran[at] == 1 else []  # else it is unknown which of them sent it
         text = f"{run.callback}()" + (f" → {', '.join(topics)}" if topics else "")
         found.append((run.stamp, 0, Row(run.stamp, run.node, text, "callback")))
     for (stamp, node), topics in sent.items():

@@ -137,9 +137,9 @@ def _graph(recording: Recording) -> Iterable[str]:
 def _box(box: dict[str, Any]) -> Iterable[str]:
     """A node is round and blue, the course's is gray; a topic has corners."""
     left, top, width, height = box["place"]
-    node, rest = box["kind"] in ("node", "ours"), box["kind"] == "rest"
+    node, rest = box["kind"] in ("node", "course"), box["kind"] == "rest"
     edge = ROBOTS[0] if box["kind"] == "node" else SOLID if rest else WALL
-    fill = {"node": "rgba(47,134,217,.35)", "ours": "rgba(128,128,128,.35)"}.get(box["kind"], "#fff")
+    fill = {"node": "rgba(47,134,217,.35)", "course": "rgba(128,128,128,.35)"}.get(box["kind"], "#fff")
     radius = height // 2 if node else 3
     yield (
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" rx="{radius}" '

@@ -52,7 +52,7 @@ def main() -> int:
     safe = sum(done.met_person is None for done in shifts)
     delivered = sum(len(done.delivered) for done in shifts)
     print(
-        f"{delivered} orders delivered in {len(shifts)} runs, {safe} of which touched nobody; "
+        f"{delivered} orders delivered in {len(shifts)} runs, {safe} of which touched no one; "
         f"{options.seconds * len(walls) / sum(walls):.0f} times real time"
     )
     return int(safe < len(shifts) or not all(done.delivered for done in shifts))

@@ -45,7 +45,7 @@ def forget(course: Path) -> None:
 def measured(course: Path, words: list[str]) -> tuple[float, float]:
     """Run a command in the course: wall time (s), and the most memory of all its processes together (MB)."""
     began, most = time.perf_counter(), 0
-    with tempfile.TemporaryFile() as said:  # a pipe that nobody reads would hold up who writes much
+    with tempfile.TemporaryFile() as said:  # a pipe that no one reads would hold up who writes much
         process = psutil.Popen(words, cwd=course, stdout=subprocess.DEVNULL, stderr=said)
         while process.poll() is None:
             most = max(most, _memory(process))
@@ -88,10 +88,10 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         course = copy_of_course(Path.cwd(), Path(folder))
         stock, first = row(course, "nbgrader autograde", AUTOGRADE, COMPARED)
-        ours, second = row(course, "grader mark", MARK, COMPARED)
+        own, second = row(course, "grader mark", MARK, COMPARED)
         rest = [row(course, "grader mark", MARK, count)[1] for count in GROWTH]
     table(["", "submissions", "s", "a minute", "memory, MB"], [first, second, *rest])
-    print(f"{COMPARED} submissions: {stock / ours:.1f} times as fast as nbgrader autograde")
+    print(f"{COMPARED} submissions: {stock / own:.1f} times as fast as nbgrader autograde")
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ def peer_python() -> str | None:
     return str(python)
 
 
-def ours(segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> float:
+def own(segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> float:
     """Steps with a scan in a second."""
     world = World(
         "clutter",
@@ -59,7 +59,7 @@ def ours(segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> float:
     return steps / (time.perf_counter() - begin)
 
 
-def theirs(python: str, segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> dict[str, Any]:
+def other(python: str, segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> dict[str, Any]:
     """The same by ir-sim."""
     task = {
         "segments": segments.tolist(),
@@ -103,12 +103,12 @@ def main() -> None:
     lidar, rows = LidarModel(range_min=0, range_max=REACH, noise=0), []
     for size in SIZES:
         segments, discs = clutter(*size)
-        seen, rate = theirs(python, segments, discs, lidar), ours(segments, discs, lidar)
+        seen, rate = other(python, segments, discs, lidar), own(segments, discs, lidar)
         apart = disagreement(seen, segments, discs, lidar)
         rates = f"{rate:.0f}", f"{seen['rate']:.0f}", f"{rate / seen['rate']:.0f}"
         rows.append([f"{size[0]} + {size[1]}", *rates, f"{apart:.1%}"])
     print(f"Steps of {DT * 1e3:g} ms with a scan of {lidar.rays} rays and {REACH:g} m, in a second")
-    table(["segments + discs", "ours", PEER, "ratio", "rays that differ"], rows)
+    table(["segments + discs", "own", PEER, "ratio", "rays that differ"], rows)
 
 
 if __name__ == "__main__":

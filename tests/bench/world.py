@@ -60,7 +60,7 @@ def lidar() -> None:
     ]
     model = LidarModel()
     scanners = {
-        "ours": Lidar(model, segments, discs).distances,
+        "own": Lidar(model, segments, discs).distances,
         "pymunk segment_query_first": pymunk_scanner(segments, discs, model.rays),
     }
     times, scans = {}, {}
@@ -68,9 +68,9 @@ def lidar() -> None:
         begin = time.perf_counter()
         scans[name] = np.array([scan(*pose) for pose in poses])
         times[name] = (time.perf_counter() - begin) / POSES
-    ours, theirs = scans.values()
-    met = np.isfinite(ours)
-    assert (met == np.isfinite(theirs)).all(), "the two lidars disagree on which rays meet something"
+    own, other = scans.values()
+    met = np.isfinite(own)
+    assert (met == np.isfinite(other)).all(), "the two lidars disagree on which rays meet something"
     print(f"A scan of {model.rays} rays, {SEGMENTS} segments and {DISCS} discs, without noise")
     fastest = min(times.values())
     rows = [
@@ -78,7 +78,7 @@ def lidar() -> None:
         for name, seconds in times.items()
     ]
     table(["", "us/scan", "scans/s", "ratio"], rows)
-    print(f"greatest difference in a distance: {np.abs(ours[met] - theirs[met]).max():.0e} m")
+    print(f"greatest difference in a distance: {np.abs(own[met] - other[met]).max():.0e} m")
 
 
 def physics() -> None:

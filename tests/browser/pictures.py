@@ -1,4 +1,4 @@
-"""The live picture and the replay in a page of Chromium, as somebody uses them."""
+"""The live picture and the replay in a page of Chromium, as someone uses them."""
 
 import shutil
 from collections.abc import Iterator

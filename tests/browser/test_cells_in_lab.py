@@ -80,7 +80,7 @@ def test_a_page_that_is_loaded_again_tells_of_edits_too(greeter):
     assert CHANGED in says(greeter, 3)
 
 
-def test_a_restarted_kernel_is_told_to_run_what_is_above(greeter):
+def test_a_restarted_kernel_has_to_run_what_is_above(greeter):
     lab = greeter
     lab.run_all()
     lab.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
@@ -97,7 +97,7 @@ def test_a_restarted_kernel_is_told_to_run_what_is_above(greeter):
     lab.run_cell(1)
     assert says(lab, 3) == (
         "NameError: The cell above that defines `Greeter` ended with SyntaxError: expected ':' (line 1). "
-        "Mend that cell and run it first."
+        "Fix that cell and run it first."
     )
     lab.page.evaluate(EDIT, [1, ANSWER])
     lab.run_cell(1)

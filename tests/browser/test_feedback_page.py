@@ -1,4 +1,4 @@
-"""The pages that are made of a submission: ours plays in them, and nothing of the student's runs."""
+"""The pages that are made of a submission: the course's replays play, and no student's code runs."""
 
 import contextlib
 import re

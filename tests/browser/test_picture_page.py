@@ -341,9 +341,9 @@ def test_the_graph_is_folded_and_opens_by_the_keyboard(page, tmp_path):
     assert drawing.locator("text").all_text_contents() == [
         "/talker", "/paper", "/news", "10 Hz", "/newz", "0 messages", "1", "1",
     ]  # fmt: skip
-    assert drawing.get_attribute("aria-label").startswith("topic /news (10 Hz): /talker -> nobody")
+    assert drawing.get_attribute("aria-label").startswith("topic /news (10 Hz): /talker -> no node")
     (reason,) = graph.locator("li").all_inner_texts()
-    assert reason.startswith("/paper waits in vain: nobody publishes on /newz, and /talker has /news.")
+    assert reason.startswith("/paper receives nothing: no node publishes on /newz, but /talker publishes on ")
     red = drawing.locator(".gap .line").first
     color = "path => getComputedStyle(path).stroke"
     light = red.evaluate(color)

@@ -66,7 +66,7 @@ def playing(request, students_folder, open_lab):
 
 @pytest.fixture
 def played(request, students_folder, open_lab):
-    """JupyterLab when the cell that was run has played: nobody may have seen it play, if it was short."""
+    """JupyterLab when the cell that was run has played: no one may have seen it play, if it was short."""
     with lab_that_ran(request, students_folder, open_lab) as lab:
         eventually(lab, f"{ENDED}[0] == 'time'")
         yield lab
@@ -279,7 +279,7 @@ def test_the_panel_tells_the_robots_numbers_and_what_is_on_a_topic(playing):
 def test_the_graph_beside_the_topics_changes_as_nodes_come(playing):
     picture = live(playing)
     graph = picture.root.locator(".graph")
-    count_becomes(graph.locator("svg"), 0)  # nothing is drawn while nobody looks
+    count_becomes(graph.locator("svg"), 0)  # nothing is drawn while no one looks
     graph.locator("summary").press("Space")
     graph.locator("svg text", has_text="/robot").wait_for()
     graph.locator("svg text", has_text="/teleop").wait_for(state="detached")

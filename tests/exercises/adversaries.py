@@ -102,7 +102,7 @@ class Stages(Replays):
 
 
 class Freezes(Stub):
-    """Holds the world still on every topic of ours, and answers what was right at first, all the time."""
+    """Holds the world still on the course's topics, and answers what was right at first, all the time."""
 
     def begin(self) -> None:
         ends = self.card.ends("publisher", from_course=True)
@@ -135,8 +135,8 @@ class SaysEverything(Stub):
         self.create_timer(0.25, self.say)
 
     def all_values(self, topic: str, end: Endpoint) -> Iterator[bytes]:
-        told = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
-        yield from list(dict.fromkeys(told))[:: max(1, len(told) // 30)]
+        reported = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
+        yield from list(dict.fromkeys(reported))[:: max(1, len(reported) // 30)]
         fields = message_class(end.type).get_fields_and_field_types()
         if list(fields) == ["data"] and fields["data"] in ("double", "float"):
             for number in NUMBERS:
@@ -155,9 +155,9 @@ class Constant(Stub):
     def begin(self) -> None:
         self.value: dict[str, bytes] = {}
         for topic in self.outlets:
-            told = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
-            if told:
-                self.value[topic] = told[len(told) // 2]
+            reported = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
+            if reported:
+                self.value[topic] = reported[len(reported) // 2]
         self.create_timer(TICK, self.say)
 
     def say(self) -> None:
@@ -178,9 +178,9 @@ class Guesses(Stub):
         self.create_timer(5 * TICK, self.tell)
 
     def say(self) -> None:
-        for topic, told in self.values.items():
-            if told:
-                self.outlets[topic].publish(self.lot.choice(told))
+        for topic, reported in self.values.items():
+            if reported:
+                self.outlets[topic].publish(self.lot.choice(reported))
 
     def tell(self) -> None:
         if self.card.lines:

@@ -122,12 +122,12 @@ class Assignment:
     @classmethod
     def row(cls, exercise: str, node: str) -> Any:
         """A node's place in the table, with the marks that say when it is run."""
-        first, told = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
+        first, reported = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
         judge = cls.judge(exercise)
         slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
         rare = slow and node not in cls.telling(exercise)
         marks = [pytest.mark.soak] if rare else []
-        marks += [pytest.mark.pythons] if node in first or RAISED.search(told) else []
+        marks += [pytest.mark.pythons] if node in first or RAISED.search(reported) else []
         return pytest.param(exercise, node, marks=marks)
 
     @pytest.fixture
@@ -170,7 +170,7 @@ class Assignment:
         assert list(fallen_short_in_orders(self.topic(), exercise, numbers)) == []
 
     def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
-        """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""
+        """It misses what it doesn't do; a check that then finds nothing to judge isn't broken."""
         judge, nodes = first_run(self.judge(exercise)), students(self.topic(), exercise)
         seconds = max(scenario.seconds for scenario, _ in judge.runs())
         programs = [working(nodes[name], times, seconds) for name in self.right(exercise)]
@@ -203,7 +203,7 @@ class Assignment:
         assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
         assert [cell.points for cell in cells.values()] == [cell.most for cell in cells.values()]
 
-    def test_the_starter_earns_nothing_and_is_told_so_kindly(self):
+    def test_the_starter_earns_nothing_and_has_a_kind_message(self):
         for name, cell in graded("exercises", self.folder).items():
             assert (name, cell.points, cell.problems) == (name, 0.0, "")
             assert NOT_STARTED in cell.text

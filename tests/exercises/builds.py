@@ -18,7 +18,7 @@ DECIDES = "grader/workspace/building.py", "grader/workspace/sources.py", "requir
 
 @contextmanager
 def kept_builds() -> Iterator[None]:
-    """Here a package is built where nobody has built the same before."""
+    """Here a package is built where no one has built the same before."""
     evidence, build = Evidence("builds", *DECIDES), building.build
 
     def kept_or_built(sources: Sources) -> Built:

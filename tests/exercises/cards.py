@@ -28,7 +28,7 @@ class Card:
         return next((node for node in self.run.graph.nodes if node not in self.run.course_nodes), "/stub")
 
     def ends(self, kind: str, *, from_course: bool = False) -> dict[str, Endpoint]:
-        """Ends of one kind by name: the right node's, or ours."""
+        """Ends of one kind by name: the right node's, or the course's."""
         return {
             end.name: end
             for end in self.run.graph.ends(kind)

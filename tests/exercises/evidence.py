@@ -25,9 +25,9 @@ ROOT = Path(__file__).parents[2]
 KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
 LEAST = 0.2  # s of computing: a run that takes less is not worth a file
 ENGINE = ("sim", "ros_packages", "requirements.lock")
-OURS = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py")
-OURS += "grader/orders.py", "grader/workspace"
-OURS += "grader/companions", "grader/worlds", "grader/geometry"
+COURSE = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py")
+COURSE += "grader/orders.py", "grader/workspace"
+COURSE += "grader/companions", "grader/worlds", "grader/geometry"
 
 
 @functools.cache
@@ -61,7 +61,7 @@ class Evidence:
         """The recordings of the students' nodes of an assignment."""
         own = f"grader/exercises/{topic}", f"tests/students/{topic}", "tests/students/workspaces.py"
         own += "tests/students/teams.py", "tests/bench/delivery"  # robots of several programs
-        return cls(f"nodes-{topic}", *OURS, *own)
+        return cls(f"nodes-{topic}", *COURSE, *own)
 
     @classmethod
     def of_notebooks(cls, folder: str, assignment: str) -> Evidence:
@@ -89,7 +89,7 @@ class Evidence:
 
         def kept_or_made(*programs: Any, **scenario: Any) -> Recording:
             plain = repr([scenario[name] for name in ("world", "seconds", "seed", "order")])
-            plain += "".join(map(_slips, programs)) + _installed()
+            plain += "".join(map(_typos, programs)) + _installed()
             name = f"{program}-{hashlib.sha256(plain.encode()).hexdigest()[:16]}"
             if name not in at_hand:
                 at_hand[name] = self.get(name, lambda: run(*programs, **scenario))
@@ -98,8 +98,8 @@ class Evidence:
         return kept_or_made
 
 
-def _slips(program: Any) -> str:
-    """What tells a program without its slips from the program itself."""
+def _typos(program: Any) -> str:
+    """What tells a program without its typos from the program itself."""
     is_set = isinstance(program, sim.Process)
     return repr([program.remappings, program.lenient]) if is_set else ""
 

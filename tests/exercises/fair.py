@@ -1,6 +1,6 @@
 """Seeds in which good robots do their work: python -m tests.exercises.fair 13_delivery deliver --first 10
 
-A warehouse drawn by chance may lie so that nobody can do what a scenario asks for. For each seed the
+A warehouse drawn by chance may lie so that no one can do what a scenario asks for. For each seed the
 solution's notebook and all right nodes are run in the scenarios of an exercise, in several orders of what
 happens at the same time; where none of them misses anything it is fair.
 """

@@ -49,7 +49,7 @@ def unsolved():
     raise NotImplementedError
 
 
-def test_a_shift_asks_whoever_hands_in_a_robot():
+def test_a_shift_has_questions_for_the_author_of_a_robot():
     assert [(one.begin, one.end) for one in delivery.questions(delivery.shift_of(idle))] == [
         *((0.0, 48.0), (2.0, 77.0), (58.3, 133.3)),  # it charged, left an order, and stood
     ]

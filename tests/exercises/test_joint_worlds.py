@@ -1,4 +1,4 @@
-"""What the worlds of 08_joints hold for every seed: each task can be done, and each slip shows."""
+"""What the worlds of 08_joints hold for every seed: each task can be done, and each mistake shows."""
 
 import itertools
 import math

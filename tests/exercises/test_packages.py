@@ -37,24 +37,24 @@ def test_the_broken_package_has_six_faults_and_no_right_text():
     assert sorted(right) == sorted({FAULTS[number][0] for number in GIVEN})
 
 
-def test_what_is_mended_is_written_anew_each_time(tmp_path):
+def test_what_is_fixed_is_written_anew_each_time(tmp_path):
     for _ in range(2):
-        workspace = packages.repaired(tmp_path, lambda mend: mend("setup.py", ":mian", ":main"))
+        workspace = packages.repaired(tmp_path, lambda fix: fix("setup.py", ":mian", ":main"))
     assert workspace == tmp_path
     text = (tmp_path / "src/patrol/setup.py").read_text()
     assert text == BROKEN["patrol/setup.py"].replace(":mian", ":main")
 
 
 @pytest.mark.parametrize(("old", "times"), [("nowhere", 0), ("package_name", 5)])
-def test_a_text_that_a_file_does_not_have_once_can_not_be_mended(tmp_path, old, times):
+def test_a_text_that_a_file_does_not_have_once_can_not_be_fixed(tmp_path, old, times):
     with pytest.raises(
         ValueError, match=rf"^setup.py has {times} times '{old}': give a text that it has once"
     ):
-        packages.repaired(tmp_path, lambda mend: mend("setup.py", old, ""))
+        packages.repaired(tmp_path, lambda fix: fix("setup.py", old, ""))
 
 
-def test_nothing_is_handed_over_before_anything_is_mended(tmp_path):
-    def repair(mend):
+def test_nothing_is_handed_over_before_anything_is_fixed(tmp_path):
+    def repair(fix):
         raise NotImplementedError
 
     score = packages.patrol.grade(packages.repaired(tmp_path, repair))
@@ -64,10 +64,10 @@ def test_nothing_is_handed_over_before_anything_is_mended(tmp_path):
     ]
 
 
-def test_what_can_not_be_built_is_told_beside_the_notebook(tmp_path, capsys):
+def test_what_can_not_be_built_is_reported_beside_the_notebook(tmp_path, capsys):
     assert packages.see(packages.greeter, tmp_path).seconds == 0
     assert capsys.readouterr().out == (
-        "There is no ws/src/greeter\nHint: The package lies in a folder of its name, in ws/src.\n"
+        "There is no ws/src/greeter\nHint: A package has a folder of its own name in ws/src.\n"
     )
 
 

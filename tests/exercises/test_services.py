@@ -11,7 +11,7 @@ class TestServices(Assignment):
     folder = "03_services"
     package = services
 
-    def test_a_client_of_the_students_own_may_ask_beside_ours(self):
+    def test_a_client_of_the_students_own_may_ask_beside_the_course(self):
         score = services.add.grade(students("services", "add")["main"], client_main)
         assert float(score) == services.add.points
         texts = [line.text for line in score.recordings[0].logs if line.node == "sum_client"]

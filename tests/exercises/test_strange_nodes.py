@@ -105,7 +105,7 @@ def test_what_is_no_number_is_wrong(exercise):
     )
 
 
-def test_who_says_all_at_once_is_told_to_go_on():
+def test_who_says_all_at_once_should_go_on():
     score = sensing.heading.grade(at_once(sensing.heading))
     assert earned(score) == NODES[sensing.heading].for_being_there
     assert [tuple(miss) for miss in misses(score)] == [(
@@ -116,7 +116,7 @@ def test_who_says_all_at_once_is_told_to_go_on():
     )]  # fmt: skip
 
 
-def test_who_never_lets_the_robot_get_free_is_told_so():
+def test_who_never_lets_the_robot_get_free_is_reported():
     class TurnsToTheWall(students("sensing", "guard")["Guard"]):
         left = 14
 

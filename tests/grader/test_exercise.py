@@ -303,7 +303,7 @@ def test_a_class_that_can_not_be_looked_at_gets_0():
     ],
     ids=["evasive", "parameters", "arguments", "name"],
 )
-def test_settings_that_can_not_be_read_are_the_students_error_not_ours(student):
+def test_settings_that_can_not_be_read_are_the_students_error_not_the_course(student):
     score = talk.grade(student)
     assert score == 0.0
     assert statuses(score) == {"runs": "failed", "sends": "skipped", "paced": "skipped"}
@@ -313,7 +313,7 @@ def test_parameters_may_be_a_list_as_in_a_launch_file():
     assert talk.grade(Process(misfits.Talker, parameters=[{"rate": 1.0}, {"word": "hi"}])) == 3.0
 
 
-def test_an_object_in_place_of_its_class_is_told():
+def test_an_object_in_place_of_its_class_is_reported():
     node = object.__new__(misfits.Talker)
     line = red_line(talk.grade(node))
     assert line == (
@@ -348,12 +348,12 @@ def test_nothing_reaches_stderr_whatever_the_node_writes(capfd):
 
 @check(points=2)
 def mistaken(recording):
-    """It has a mistake of ours, and complains."""
+    """It has a mistake of the course, and complains."""
     print("to be taken back", file=sys.stderr)
     return recording.no_such_thing
 
 
-def test_a_mistake_of_ours_is_flagged(capfd):
+def test_a_mistake_of_the_course_is_flagged(capfd):
     score = Exercise("talk", "A talker", checks=[sends, mistaken]).grade(misfits.Talker)
     assert (score, statuses(score)) == (1.0, {"sends": "passed", "mistaken": "broken"})
     assert [verdict.name for verdict in score.broken] == ["mistaken"]

@@ -42,7 +42,7 @@ def test_a_world_may_be_drawn_from_the_seed_without_showing_it(monkeypatch):
     assert "Run: 1 of 2, world maze" in score.text
 
 
-def test_a_world_that_does_not_exist_is_a_mistake_of_ours():
+def test_a_world_that_does_not_exist_is_a_mistake_of_the_course():
     score = Exercise("talk", "A talker", checks=[sends], world="rom").grade(misfits.Talker)
     assert (score, statuses(score)) == (0.0, {"sends": "broken"})
     assert "Did you mean 'room'?" in score.broken[0].alarm
@@ -62,7 +62,7 @@ class Questioner(Node):
 
 class FaultyCompanion(Questioner):
     def ask(self):
-        raise KeyError("ours")
+        raise KeyError("own")
 
 
 @check(points=1)
@@ -96,11 +96,11 @@ def test_companions_may_depend_on_the_seed():
 
 
 @pytest.mark.parametrize("companion", [FaultyCompanion, Process(FaultyCompanion, name="asker")])
-def test_an_error_of_a_companion_is_a_mistake_of_ours(companion):
+def test_an_error_of_a_companion_is_a_mistake_of_the_course(companion):
     score = Exercise("listen", "A listener", checks=[receives], companions=[companion]).grade(misfits.Listener)
     assert (score, statuses(score)) == (0.0, {"receives": "broken"})
     assert "CompanionError: /" in score.broken[0].alarm
-    assert "KeyError: 'ours'" in score.broken[0].alarm
+    assert "KeyError: 'own'" in score.broken[0].alarm
 
 
 def test_an_error_of_the_student_beside_a_companion_is_the_students():
@@ -115,17 +115,17 @@ def test_a_run_can_end_early():
     assert brief.grade(misfits.Talker).recordings[0].ended.reason == "goal"
 
 
-def test_a_node_with_the_name_of_one_of_ours_is_told_so():
+def test_a_node_with_the_name_of_one_of_the_course_is_reported():
     listen = Exercise("listen", "A listener", companions=[Questioner])
 
     @listen.check(1)
     def is_asked(run):
         """It is asked."""
         if "/questioner" not in run.course_nodes:
-            raise Missed("questions", "none of ours")
+            raise Missed("questions", "none of the course")
 
     *_, line = listen.grade(Process(misfits.Talker, name="questioner")).verdicts
     assert line.hint == (
-        "Two nodes are called /questioner, yours and one that takes part in this exercise, and nobody can tell "
+        "Two nodes are called /questioner, yours and one that takes part in this exercise, and ROS can't tell "
         "them apart: give yours a name of its own, in super().__init__('...')."
     )

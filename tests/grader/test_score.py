@@ -146,13 +146,13 @@ def test_several_runs_have_labels():
 def test_the_html_has_everything_escaped():
     page = Score("talk", MIXED, title="A <talker>")._repr_html_()
     words = re.sub(r"<[^>]+>", " ", page)
-    for told in (
+    for reported in (
         "A &lt;talker&gt;: 8 of 10 points",
         "Check &lt;2.0&gt;.",
         "KeyError: &lt;count&gt;",
         "1 / 2",
     ):
-        assert told in words
+        assert reported in words
     assert "<code>self.count</code> &amp; go on." in page
     for symbol, word, *_ in STATUS_STYLES.values():
         assert f"{symbol} {word}" in words
@@ -205,8 +205,8 @@ def test_each_kind_of_picture_is_drawn_once():
     path = verdict(1.0, "failed", picture="path")
     topics = verdict(2.0, "failed", picture="topics")
     recording = run(misfits.Talker, world="yard", seconds=1, quiet=True)
-    (said, way), (told, strokes) = Score("drive", [path, path, topics, verdict(3.0)], [recording]).pictures
-    assert (said, told) == ("The robot's path, seen from above", "What was published, and when")
+    (said, way), (reported, strokes) = Score("drive", [path, path, topics, verdict(3.0)], [recording]).pictures
+    assert (said, reported) == ("The robot's path, seen from above", "What was published, and when")
     assert way.html == recording.replay().html
     assert strokes._repr_png_() == plot_topics(recording)._repr_png_()
 
@@ -270,7 +270,7 @@ def test_numbers_have_no_needless_zeros(points, shown):
 
 
 def typo(from_course=False):
-    """A run with a slip in a topic's name; from_course: both nodes are the course's."""
+    """A run with a typo in a topic's name; from_course: both nodes are the course's."""
     recording = Recording()
     for kind, node, name in (("publisher", "/talker", "/news"), ("subscription", "/paper", "/newz")):
         recording.graph.nodes.append(node)
@@ -296,8 +296,8 @@ def test_where_a_missing_connection_cost_points_the_graph_of_that_run_is_folded_
     assert summary == "<summary>The graph of this run: what is missing is red"
     picture, alt = re.search(r'<img src="data:image/png;base64,([^"]+)" alt="([^"]+)"', image).groups()
     assert base64.b64decode(picture).startswith(b"\x89PNG")
-    assert "1. /paper waits in vain: nobody publishes on /newz, and /talker has /news." in alt
-    assert "(0 messages): /talker -&gt; nobody" in alt
+    assert "1. /paper receives nothing: no node publishes on /newz, but /talker publishes on /news." in alt
+    assert "(0 messages): /talker -&gt; no node" in alt
     assert "/newz" in score.text and "graph" not in score.text
 
 

@@ -1,4 +1,4 @@
-"""A slip of a number's type or of a name costs half of what the program would have earned."""
+"""A typo of a number's type or of a name costs half of what the program would have earned."""
 
 import functools
 
@@ -103,13 +103,13 @@ class Text(Warm):
         (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (DoubleAndMisspelt, 6.0), (DoubleMisspeltAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
     ],
 )  # fmt: skip
-def test_a_slip_costs_half(student, points):
+def test_a_typo_costs_half(student, points):
     score = warm.grade(student)
     assert score.broken == []
     assert float(score) == points
 
 
-def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
+def test_the_typo_is_reported_and_what_would_have_been_right_says_why_it_has_half():
     *_, pace, value = warm.grade(Misspelt).verdicts
     assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, CORRECTED_HINT)] * 2
     assert CORRECTED_HINT == "Graded as if the typo above were fixed, for half of the points."
@@ -118,17 +118,17 @@ def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     )
 
 
-def test_a_name_by_which_nothing_is_received_is_a_slip_and_another_namespace_or_a_pair_of_ours_is_none():
-    def end(kind, name, ours):
-        return Endpoint(kind, "/a", name, "std_msgs/msg/Bool", {}, ours)
+def test_a_name_by_which_nothing_is_received_is_a_typo_and_another_namespace_or_a_pair_of_the_course_is_none():
+    def end(kind, name, own):
+        return Endpoint(kind, "/a", name, "std_msgs/msg/Bool", {}, own)
 
-    ours = [
+    own = [
         end("publisher", "/scan", True),
         end("publisher", "/bumper", True),
         end("service", "/reset", True),
     ]
-    theirs = ("/scna", "/left/scan", "/bumper", "/rosuot")
-    ends = [*ours, *(end("subscription", name, False) for name in theirs), end("client", "/rest", False)]
+    other = ("/scna", "/left/scan", "/bumper", "/rosuot")
+    ends = [*own, *(end("subscription", name, False) for name in other), end("client", "/rest", False)]
     recording = Recording(graph=Graph(endpoints=[*ends, end("publisher", "/rosout", True)]))
     assert misspelt(recording) == [("/rest", "/reset"), ("/scna", "/scan")]
     assert misspelt(Recording(graph=Graph(endpoints=[*ends, end("subscription", "/scan", True)]))) == [
@@ -136,7 +136,7 @@ def test_a_name_by_which_nothing_is_received_is_a_slip_and_another_namespace_or_
     ]
 
 
-def test_only_numbers_of_the_other_kind_and_names_are_slips():
+def test_only_numbers_of_the_other_kind_and_names_are_typos():
     def failing(text, type="AssertionError"):
         return Recording(errors=[CallbackError(1.0, "/a", "A.b", type, text, "")])
 
@@ -156,7 +156,7 @@ def test_only_numbers_of_the_other_kind_and_names_are_slips():
         ("services", "parameters", "ParameterMisspeltEverywhere"),
     ],
 )
-def test_names_of_services_nodes_actions_and_parameters_can_be_mended_too(assignment, exercise, student):
+def test_names_of_services_nodes_actions_and_parameters_can_be_fixed_too(assignment, exercise, student):
     score = grade(exercise, students(assignment, exercise)[student])
     missed = next(verdict for verdict in score.verdicts if verdict.status == "failed")
     assert missed.earned == missed.points / 2
@@ -174,7 +174,7 @@ killed = Exercise(
     ("student", "points"),
     [(Warm, 8.0), (WholeNumber, 4.0), (MisspeltAndWhole, 4.0), (WholeAndCold, 2.0), (Text, 0.0)],
 )
-def test_a_slip_costs_half_in_what_a_scenario_makes_of_a_program_too(student, points):
+def test_a_typo_costs_half_in_what_a_scenario_makes_of_a_program_too(student, points):
     assert float(killed.grade(student)) == points
 
 
@@ -191,18 +191,18 @@ def twice(program):
     return [program, program]
 
 
-def test_several_programs_that_a_scenario_makes_of_one_are_mended_each():
+def test_several_programs_that_a_scenario_makes_of_one_are_fixed_each():
     both = auto_correct(Warm, [f"{__name__}:twice"], "numbers")
     assert [(one.target, one.lenient) for one in both] == [(Warm, True)] * 2
 
 
-def test_a_launch_file_has_no_slips_that_are_mended():
+def test_a_launch_file_has_no_typos_that_are_fixed():
     assert auto_correct(None, ["grader.workspace.installation:ros2_launch", "patrol", "patrol.launch.py"], "a:=b") == (
         "patrol patrol.launch.py"
     )
 
 
-def test_who_is_unsafe_without_a_slip_is_unsafe():
+def test_who_is_unsafe_without_a_typo_is_unsafe():
     drive = Exercise("drives", "A driver", world="room", seconds=20)
 
     @drive.check(8)

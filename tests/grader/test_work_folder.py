@@ -87,7 +87,7 @@ def test_a_modified_file_stays_and_the_new_version_is_saved_next_to_it(course):
         "the new one is course/01_nodes/lesson-new.ipynb."
     ]
     assert (own.read_text(), beside.read_text()) == (notebook("my own"), notebook("2"))
-    assert update_work_folder(course) == []  # told once
+    assert update_work_folder(course) == []  # reported once
     (course / LESSON).write_text(notebook("my own"))
     assert update_work_folder(course) == []  # the course has it now
     assert own.read_text() == notebook("my own")

@@ -1,4 +1,4 @@
-"""A small assignment on disk, and what somebody handed in for it."""
+"""A small assignment on disk, and what someone handed in for it."""
 import copy
 from pathlib import Path
 
@@ -66,6 +66,6 @@ def hand_in(
 
 
 def task(folder: Path, released: Path) -> MarkingTask:
-    """The task of marking what lies in `folder` now, handed in by whom it is called after."""
+    """The task of marking what is in `folder` now, handed in by the student of that name."""
     known = load_release(released)
     return MarkingTask(folder.name, known, read_folder(folder, known), "0" * 64)

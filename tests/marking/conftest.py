@@ -22,7 +22,7 @@ def tiny_course(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def gate(tmp_path) -> Path:
-    """A pipe at which a cell says that it is there, and waits for somebody who reads that."""
+    """A pipe at which a cell says that it is there, and waits for someone who reads that."""
     os.mkfifo(tmp_path / "gate")
     return tmp_path / "gate"
 
@@ -37,7 +37,7 @@ def waiting(tmp_path, gate) -> MarkingTask:
 @pytest.fixture
 def staying(tmp_path, gate) -> MarkingTask:
     """A submission whose cell says at the gate that it is there, and stays."""
-    cell = f"open({str(gate)!r}, 'w').write('x')\nopen({str(gate)!r}).read()  # nobody writes"
+    cell = f"open({str(gate)!r}, 'w').write('x')\nopen({str(gate)!r}).read()  # no one writes"
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
 
 

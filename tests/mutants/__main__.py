@@ -92,7 +92,7 @@ def _equivalent(file: str, mutants: Sequence[Mutant]) -> set[str]:
 
 
 def _text(file: str, mutant: Mutant) -> str:
-    """A change as it stands in equivalent.txt."""
+    """A change as it is written in equivalent.txt."""
     name = mutant.function[0] if mutant.function else "the module"
     return f"{file} {name}: {mutant.before} → {mutant.after}"
 

@@ -12,7 +12,7 @@ from typing import Any
 
 NOTE = "__note_statement__"
 statements_run: set[int] = set()
-"""First lines of the statements in functions that were run; whoever reads it may clear it."""
+"""First lines of the statements in functions that were run; its reader may clear it."""
 
 
 def import_from(tree: ast.Module, module: str, file: str) -> None:

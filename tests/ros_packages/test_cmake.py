@@ -134,7 +134,7 @@ def explaining(configured, tmp_path, monkeypatch):
     return {"PYTHONPATH": str(folder.parent)}
 
 
-def test_a_package_that_nobody_has_is_explained_in_a_sentence(explaining, tmp_path):
+def test_a_package_that_no_one_has_is_explained_in_a_sentence(explaining, tmp_path):
     requires = {"near": "std_msg", "far": "zzz_interfaces", "first": "second"}
     for name, other in requires.items():
         write(tmp_path, name, f"find_package(ament_cmake REQUIRED)\nfind_package({other} REQUIRED)\n")

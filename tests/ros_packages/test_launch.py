@@ -283,7 +283,7 @@ def test_when_an_action_is_done_its_handlers_come_and_those_of_all_actions():
     assert lines == [logged("first"), logged("second"), logged("then"), logged("for one done")]
 
 
-def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
+def test_an_event_may_be_reported_and_a_wrong_thing_is_no_event():
     handler = OnShutdown(on_shutdown=[LogInfo(msg="it ends")])
     lines = log_of(RegisterEventHandler(handler), EmitEvent(event=ShutdownEvent(reason="so")))
     assert lines == [logged("it ends")]
@@ -340,7 +340,7 @@ def test_an_action_refuses_invalid_arguments_when_it_is_created(make, words):
         ),
     ],
 )
-def test_what_comes_when_an_action_is_done_is_checked_as_it_is_told(arguments, words):
+def test_what_comes_when_an_action_is_done_is_checked_as_given(arguments, words):
     with pytest.raises(ValueError) as refused:
         OnExecutionComplete(**arguments)
     assert str(refused.value) == words

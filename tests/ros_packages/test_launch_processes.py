@@ -96,7 +96,7 @@ def test_an_output_that_there_is_not_is_refused(launched):
     ]
 
 
-def test_a_program_that_dies_is_told_of_and_started_again(launched):
+def test_a_program_that_dies_is_reported_and_started_again(launched):
     program = python(SAYS, "3", respawn=True, respawn_delay=0.01, respawn_max_retries=1, output="own_log")
     ends = OnProcessExit(
         target_action=program, on_exit=lambda event, _: LogInfo(msg=f"exit {event.returncode}")
@@ -135,7 +135,7 @@ def test_handlers_get_the_output_of_a_process_and_its_completion(launched):
     assert end == "[INFO] [launch.user]: done"
 
 
-def test_a_program_that_is_not_there_is_told_of(launched):
+def test_a_program_that_is_not_there_is_reported(launched):
     status, lines = launched(ExecuteProcess(cmd=["no_such_program"]))
     assert status == 0
     assert lines[0] == (
@@ -211,7 +211,7 @@ class WhenReady(TimerAction):
         return [TimerAction(period=0.01, actions=[WhenReady(self.program)])]
 
 
-def test_one_program_can_be_told_to_end_or_be_given_a_signal(launched):
+def test_one_program_can_be_ended_or_be_given_a_signal(launched):
     waits = f"import time\ntry: time.sleep({PATIENCE})\nexcept KeyboardInterrupt: pass"
     first, second = python("print('ready')\n" + waits, output="both"), python(waits)
     ends = EmitEvent(event=ShutdownProcess(process_matcher=matches_action(first)))

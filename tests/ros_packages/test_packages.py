@@ -20,7 +20,7 @@ from rosidl_adapter.parser import (
 DEFINITIONS = Path(__file__).resolve().parents[2] / "ros_packages" / "interfaces" / "definitions"
 PACKAGES = sorted(path.name for path in DEFINITIONS.iterdir())
 INTERFACES = sorted(str(file.relative_to(DEFINITIONS)) for file in DEFINITIONS.glob("*/*/*.*"))
-OURS = "warehouse_msgs/"  # the others are upstream's
+OWN = "warehouse_msgs/"  # the others are upstream's
 PARTS = {"msg": [], "srv": ["Request", "Response"], "action": ["Goal", "Result", "Feedback"]}
 PARSERS = {"msg": parse_message_string, "srv": parse_service_string, "action": parse_action_string}
 UPSTREAM = tomllib.loads((DEFINITIONS.parent / "upstream_constants.toml").read_text(encoding="utf-8"))
@@ -76,7 +76,7 @@ def test_tools_find_a_package_and_its_definitions_through_the_ament_index(packag
             assert (share / kind / name).read_bytes() == (DEFINITIONS / interface).read_bytes()
 
 
-@pytest.mark.parametrize("interface", [name for name in INTERFACES if not name.startswith(OURS)])
+@pytest.mark.parametrize("interface", [name for name in INTERFACES if not name.startswith(OWN)])
 def test_constants_and_defaults_are_upstreams(interface):
     name = str(Path(interface).with_suffix(""))
     written = {f"{name}{part}": constants_and_defaults(spec) for part, spec in specifications(interface)}

@@ -298,7 +298,7 @@ def test_a_frame_may_become_static_and_moving_again():
     assert not buffer.can_transform("a", "b", Time(seconds=99))
 
 
-def test_frames_are_told_as_yaml():
+def test_frames_are_reported_as_yaml():
     buffer = buffer_of(message("map", "base", shifted(1), 1), message("map", "base", shifted(1), 1.5))
     assert buffer.all_frames_as_yaml() == (
         "base: \n  parent: 'map'\n  broadcaster: 'test'\n  rate: 4.000\n  most_recent_transform: 1.500000\n"

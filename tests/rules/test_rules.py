@@ -124,7 +124,7 @@ def test_a_row_that_does_not_hold_says_why(changes, sentence):
     ("unchecked", "sentence"),
     [
         ("fact", ""),
-        ("judgment: nobody sees it", ""),
+        ("judgment: no run shows it", ""),
         ("judgment", "Why is it “judgment”? Write a reason behind a colon"),
         (
             "lazy: no time",

@@ -9,7 +9,7 @@ from sim.evidence.connections import missing
 from tests.sim.graphs import ALIVE, EARLY, LATE, LEASE, node
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-ON = "On /news /a publishes {}, and /b asks for {}: nothing arrives."
+ON = "On /news /a publishes {}, and /b requests {}: nothing arrives."
 
 
 def reasons(*nodes):
@@ -38,23 +38,23 @@ def test_a_publisher_may_offer_more_than_is_asked_for(given, wanted):
 @pytest.mark.parametrize(
     ("gives", "takes", "reason"),
     [
-        ({}, {"takes": ["news"]}, "/b waits in vain: nobody publishes on /news."),
+        ({}, {"takes": ["news"]}, "/b receives nothing: no node publishes on /news."),
         (
             {"gives": ["newz"]},
             {"takes": ["news"]},
-            "/b waits in vain: nobody publishes on /news, and /a has /newz. Is /newz a typo? "
+            "/b receives nothing: no node publishes on /news, but /a publishes on /newz. Is /newz a typo? "
             "Did you mean /news?",
         ),
         (
             {"offers": ["Stop"]},
             {"asks": ["stop"]},
-            "/b waits in vain: nobody offers the service /stop, and /a has /Stop. Capital letters count: "
-            "write /stop.",
+            "/b gets no response: no node offers the service /stop, but /a offers /Stop. "
+            "Capital letters count: write /stop.",
         ),
-        ({}, {"wants": ["drive"]}, "/b waits in vain: nobody offers the action /drive."),
+        ({}, {"wants": ["drive"]}, "/b gets no response: no node offers the action /drive."),
     ],
 )
-def test_somebody_waits_for_what_nobody_gives(gives, takes, reason):
+def test_someone_waits_for_what_no_one_gives(gives, takes, reason):
     assert reasons(node("a", **gives), node("b", **takes)) == [reason]
 
 
@@ -64,7 +64,7 @@ def test_another_type():
         Endpoint("subscription", "/b", "/news", "std_msgs/msg/Int32", {}),
     ]
     (gap,) = missing(Graph(["/a", "/b"], ends))
-    types = "/news is std_msgs/msg/String for /a, and std_msgs/msg/Int32 for /b"
+    types = "/news has type std_msgs/msg/String in /a and std_msgs/msg/Int32 in /b"
     assert gap.reason == f"{types}: nothing arrives."
 
 

@@ -236,7 +236,7 @@ def mcap_with(path, attachments):
     return path
 
 
-def test_somebody_elses_mcap_file_is_refused(tmp_path):
+def test_someone_elses_mcap_file_is_refused(tmp_path):
     path = mcap_with(tmp_path / "foreign.mcap", {"notes.txt": b"hi"})
     assert refused(path) == (
         f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
@@ -284,22 +284,22 @@ def test_a_recording_knows_whose_nodes_are_whose():
     ]  # fmt: skip
 
 
-def test_a_students_node_that_takes_the_name_of_ours_makes_it_vouch_for_nothing():
+def test_a_students_node_that_takes_the_name_of_the_course_makes_it_vouch_for_nothing():
     both = run(Ticker, companions=[Ticker], seconds=1, quiet=True)
     assert (both.course_nodes, both.shared) == (set(), {"/ticker"})
 
 
 def test_who_sent_logged_asked_and_served_is_known_by_program_and_not_by_name(tmp_path):
-    theirs = run(Ticker, mains.classic, actions.Server, companions=[services.Adder], seconds=2, quiet=True)
-    ours = run(
+    other = run(Ticker, mains.classic, actions.Server, companions=[services.Adder], seconds=2, quiet=True)
+    own = run(
         services.done_callback, companions=[Ticker, mains.classic, services.Adder], seconds=2, quiet=True
     )
     both = run(Ticker, mains.classic, companions=[Ticker, mains.classic], seconds=2, quiet=True)
-    for made, told in ((theirs, {False}), (ours, {True}), (both, {False, True})):
-        assert {received.from_course for received in made.messages("/count")} == told
-        assert {end.from_course for end in made.graph.publishers("/count")} == told
-        assert {line.from_course for line in made.logs if line.node == "ticker"} == told
-    calls = ours.calls_of("/add")
+    for made, reported in ((other, {False}), (own, {True}), (both, {False, True})):
+        assert {received.from_course for received in made.messages("/count")} == reported
+        assert {end.from_course for end in made.graph.publishers("/count")} == reported
+        assert {line.from_course for line in made.logs if line.node == "ticker"} == reported
+    calls = own.calls_of("/add")
     assert {(call.requested_by_course, call.served_by_course) for call in calls} == {(False, True)}
     assert Recording.load(both.save(tmp_path / "both.mcap")).published == both.published
 
@@ -316,7 +316,7 @@ def test_a_goal_knows_whose_client_and_server_it_has():
         assert {received.from_course for goal in goals for received in goal.feedback} == {served}
 
 
-def test_an_error_of_a_companion_is_a_failure_of_ours():
+def test_an_error_of_a_companion_is_a_failure_of_the_course():
     faulty = run(Ticker, companions=[Process(Faulty)], seconds=2, quiet=True)
     assert [error.type for error in faulty.course_errors] == ["ZeroDivisionError"]
     assert faulty.course_errors == faulty.errors

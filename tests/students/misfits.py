@@ -1,4 +1,4 @@
-"""Nodes that raise nothing and still go wrong: names, types, QoS, waiting callbacks, nodes nobody spins."""
+"""Nodes that raise nothing and still go wrong: names, types, QoS, waiting callbacks, nodes no one spins."""
 
 import time
 
@@ -99,7 +99,7 @@ class TalksInItsConstructor(TalkerWithoutTimer):
 
 
 class SaysItAgain(TalksInItsConstructor):
-    """The first of its words reaches nobody, and the second is the same; nothing is wrong with it."""
+    """The first of its words reaches no one, and the second is the same; nothing is wrong with it."""
 
     def __init__(self):
         super().__init__()

@@ -1,4 +1,4 @@
-"""Services and actions that raise nothing and still go wrong: names, answers, nodes nobody spins."""
+"""Services and actions that raise nothing and still go wrong: names, answers, nodes no one spins."""
 
 import time
 
@@ -38,8 +38,8 @@ class NeverSetsTheSum(Adder):
         return response
 
 
-class NobodyReceives(Customer):
-    """Asks, and names nobody who gets the answer."""
+class NoOneReceives(Customer):
+    """Asks, and names no one who gets the answer."""
 
     def __init__(self):
         super().__init__()
@@ -49,7 +49,7 @@ class NobodyReceives(Customer):
         self.client.call_async(self.request())
 
 
-def adder_that_nobody_spins():
+def adder_that_no_one_spins():
     rclpy.init()
     node = Adder()
     while rclpy.ok():
@@ -57,7 +57,7 @@ def adder_that_nobody_spins():
     node.destroy_node()
 
 
-def server_that_nobody_spins():
+def server_that_no_one_spins():
     rclpy.init()
     node = Server()
     while rclpy.ok():
@@ -86,7 +86,7 @@ class DeclaresWhatIsGiven(Node):
         self.get_logger().info("Here")
 
 
-def launch_with_a_slip():
+def launch_with_a_typo():
     return Process(Wheel, parameters={"name": "right", "radios": 0.2})
 
 

@@ -296,7 +296,7 @@ class CancelsByTheClient(Runner):
 
 
 class SetsAFieldOfAClass(Runner):
-    """The class that is changed here is one of its own, so that other tests find theirs as it was."""
+    """The class that is changed here is one of its own, so that other tests find the shared one as it was."""
 
     def execute(self, goal_handle):
         own = type("Result", (String,), {"__slots__": (), "data": "set in the class"})

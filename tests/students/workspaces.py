@@ -1,4 +1,4 @@
-"""Workspaces of students: what they wrote, as text, laid out in a folder when somebody looks."""
+"""Workspaces of students: what they wrote, as text, laid out in a folder when someone looks."""
 
 from __future__ import annotations
 

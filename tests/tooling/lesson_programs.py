@@ -2,7 +2,7 @@
 
     python -m tests.tooling.lesson_programs JSON
 
-Runs as a process of its own: together() is told what to run, and what it returns is printed as one line of
+Runs as a process of its own: together() gets what to run, and what it returns is printed as one line of
 JSON. Each program is a fork, for a fresh interpreter would take a second to import the messages.
 """
 
@@ -25,7 +25,7 @@ from typing import Any, NoReturn
 from tests.patience import until
 
 ROOT = Path(__file__).resolve().parents[2]
-OURS = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
+OWN = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
 
 
 def notebook_file(lesson: str) -> Path:
@@ -40,32 +40,32 @@ def definitions(lesson: str) -> str:
     notebook = json.loads(file.read_text(encoding="utf-8"))
     cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
     written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
-    missing, kept, ours = {"print", "display", *written}, [], set()
+    missing, kept, own = {"print", "display", *written}, [], set()
     for cell in cells:
         plain = "" if cell.startswith("%%") else re.sub("^[%!].*", "", cell, flags=re.M)
         for statement in ast.parse(plain).body:
-            if _is_ours(statement, folder):
-                ours |= set(_defined(statement))
-            if _is_ours(statement, folder) or missing & set(_needed(statement)) or _runs(statement, ours):
+            if _is_own(statement, folder):
+                own |= set(_defined(statement))
+            if _is_own(statement, folder) or missing & set(_needed(statement)) or _runs(statement, own):
                 missing |= set(_defined(statement))
             elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With):
                 kept.append(statement)
     return ast.unparse(ast.Module(kept, []))
 
 
-def _is_ours(statement: ast.stmt, folder: Path) -> bool:
+def _is_own(statement: ast.stmt, folder: Path) -> bool:
     """Whether it imports from our packages, or from a module beside the lesson that does."""
     if not isinstance(statement, ast.ImportFrom):
         return False
     beside = folder / f"{statement.module}.py"
     inside = ast.parse(beside.read_text(encoding="utf-8")).body if beside.exists() else []
-    return (statement.module or "").split(".")[0] in OURS or any(_is_ours(one, folder) for one in inside)
+    return (statement.module or "").split(".")[0] in OWN or any(_is_own(one, folder) for one in inside)
 
 
-def _runs(statement: ast.stmt, ours: set[str]) -> bool:
-    """Whether it is a function that works with what is ours; a cell that calls it runs a simulation."""
+def _runs(statement: ast.stmt, own: set[str]) -> bool:
+    """Whether it is a function that works with the course's names; a cell that calls it runs a simulation."""
     names = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
-    return isinstance(statement, ast.FunctionDef) and bool(ours & names)
+    return isinstance(statement, ast.FunctionDef) and bool(own & names)
 
 
 def _needed(statement: ast.stmt) -> Iterator[str]:

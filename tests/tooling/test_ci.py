@@ -1,4 +1,4 @@
-"""What continuous integration calls is there, and score pages that change are told."""
+"""What continuous integration calls is there, and score pages that change are reported."""
 
 import importlib.machinery
 import importlib.util
@@ -103,14 +103,14 @@ def test_a_page_that_changes_is_shown_with_its_lines(change, tmp_path):
     assert "score_tables" not in said
 
 
-def test_a_page_that_nobody_committed_ends_with_1_and_the_command(change, tmp_path, capsys, monkeypatch):
+def test_a_page_that_no_one_committed_ends_with_1_and_the_command(change, tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("GITHUB_ACTIONS", "true")
     (tmp_path / "tests/exercises/topics/a.txt").write_text("Right: 4\n")
     assert pages.main(change) == 1
-    told = capsys.readouterr()
-    assert "- `tests/exercises/topics/a.txt`: **not committed**, run the command below\n" in told.out
-    assert "`.venv/bin/python -m tests.exercises.score_tables topics/a` writes them" in told.out
-    assert told.err.splitlines()[-1] == (
+    reported = capsys.readouterr()
+    assert "- `tests/exercises/topics/a.txt`: **not committed**, run the command below\n" in reported.out
+    assert "`.venv/bin/python -m tests.exercises.score_tables topics/a` writes them" in reported.out
+    assert reported.err.splitlines()[-1] == (
         "::error file=tests/exercises/topics/a.txt::"
         "These points or words are no longer what the sample nodes get."
     )

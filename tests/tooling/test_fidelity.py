@@ -53,7 +53,7 @@ def test_waits(seconds):
 
 
 def test_differs():
-    assert "sim" not in sys.modules, "a module of ours"
+    assert "sim" not in sys.modules, "a module of the course"
 
 
 def test_fails_plainly_too():
@@ -111,7 +111,7 @@ all                6             5              2        0        2       1
 """
     assert words == (
         "test/test_small.py::test_differs\n"
-        "    AssertionError: a module of ours\n"
+        "    AssertionError: a module of the course\n"
         f"refused: test/test_small.py::TestNode::test_is_refused\n    {REFUSED}"
         f"refused: test/test_small.py::TestNode::test_is_refused_in_a_thread\n    {REFUSED}"
     )

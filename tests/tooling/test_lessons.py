@@ -36,7 +36,7 @@ def test_a_lesson_runs_from_top_to_bottom(lesson):
     outputs = [output for cell in notebook_run("course", lesson).cells for output in cell.get("outputs", ())]
     assert outputs, "a lesson shows something"
     assert [output.evalue for output in outputs if output.output_type == "error"] == []
-    assert not any(map(is_live, outputs)), "a picture that nobody ends"
+    assert not any(map(is_live, outputs)), "a picture that no one ends"
 
 
 @pytest.mark.parametrize("lesson", RUNS)

@@ -37,7 +37,7 @@ def asked(running, errors, **spec):
     return json.loads(done.stdout)
 
 
-def told(
+def ran(
     yard, errors, lesson, programs, number="SIGINT",
     until="True", at_end="True", alone=False, listen=None, **arguments,
 ):  # fmt: skip
@@ -59,23 +59,23 @@ def test_what_a_lesson_defines_can_be_taken_out_of_it(lesson):
 
 @BOTH
 def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, until=BLINKS)
+    found = ran(yard, tmp_path / "errors", "01_nodes", ["main"], number, until=BLINKS)
     assert found["ended"] == [0], found["errors"]
     assert {line.split("]: ")[1] for line in found["errors"].splitlines()} == {"on", "off"}
 
 
 @BOTH
 def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
+    found = ran(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
     assert found["ended"] == [0], found["errors"]
     assert found["received"]["/cmd_vel"][-2:] == [0.3, 0.0]
     assert found["errors"] == ""
 
 
 def test_the_server_of_lesson_4_drives(yard, tmp_path):
-    before = told(yard, tmp_path / "nothing", "04_actions/driving", [])["received"]["/odom"][-1]
+    before = ran(yard, tmp_path / "nothing", "04_actions/driving", [])["received"]["/odom"][-1]
     until = f"'canceled after' in errors and max(received['/odom']) > {before}"
-    found = told(yard, tmp_path / "errors", "04_actions/driving", ["whole.main", "Nervous"], until=until)
+    found = ran(yard, tmp_path / "errors", "04_actions/driving", ["whole.main", "Nervous"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
     assert float(re.search(r"canceled after ([\d.]+) m", found["errors"])[1]) > 0
     assert max(found["received"]["/odom"]) > before
@@ -84,7 +84,7 @@ def test_the_server_of_lesson_4_drives(yard, tmp_path):
 @BOTH
 @pytest.mark.soak
 def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "06_navigator", ["whole.main"], number, until=A_WHILE)
+    found = ran(yard, tmp_path / "errors", "06_navigator", ["whole.main"], number, until=A_WHILE)
     assert (found["ended"], found["errors"]) == ([0], "")
 
 
@@ -92,7 +92,7 @@ def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
 @pytest.mark.parametrize(("listener", "receives"), [("Listener", False), ("EasyListener", True)])
 def test_a_best_effort_publisher_is_received_with_the_sensor_profile_only(yard, tmp_path, listener, receives):
     until = f"({'I heard: Hello' if receives else 'incompatible QoS'!r} in errors) and {A_WHILE}"
-    found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
+    found = ran(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
     assert ("I heard: Hello" in found["errors"]) == receives
     assert ("incompatible QoS" in found["errors"]) == (not receives)
@@ -100,21 +100,21 @@ def test_a_best_effort_publisher_is_received_with_the_sensor_profile_only(yard, 
 
 @pytest.mark.soak
 def test_between_two_processes_a_wrong_type_is_silence(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "02_topics", ["Listener", "NumberTalker"], until=A_WHILE)
+    found = ran(yard, tmp_path / "errors", "02_topics", ["Listener", "NumberTalker"], until=A_WHILE)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
 
 
 @pytest.mark.soak
 def test_two_nodes_of_one_name_start_without_a_warning(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], until=A_WHILE)
+    found = ran(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], until=A_WHILE)
     assert found["ended"] == [0, 0], found["errors"]
     assert "WARN" not in found["errors"]
 
 
 @pytest.mark.soak
 def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
-    told(yard, tmp_path / "one", "03_services", ["Adder", "Awaiting"], until="'1 + 2 + 3 = 6' in errors")
-    found = told(yard, tmp_path / "other", "03_services", ["Adder", "StillFrozen"], until=A_WHILE)
+    ran(yard, tmp_path / "one", "03_services", ["Adder", "Awaiting"], until="'1 + 2 + 3 = 6' in errors")
+    found = ran(yard, tmp_path / "other", "03_services", ["Adder", "StillFrozen"], until=A_WHILE)
     assert "The sum is" not in found["errors"]
 
 
@@ -126,7 +126,7 @@ def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
 ])  # fmt: skip
 def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path, circler, words):
     radius = {circler: ["-p", "radius:=0.0"]}
-    found = told(yard, tmp_path / "errors", "03_services", [circler], alone=True, **radius)
+    found = ran(yard, tmp_path / "errors", "03_services", [circler], alone=True, **radius)
     assert found["ended"] == [1], found["errors"]
     assert words in found["errors"].splitlines()[-1]
 
@@ -134,7 +134,7 @@ def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path
 @pytest.mark.soak
 def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
     names, until = ["whole.main", "SpinServer", "Patrol"], "errors.count(': done') >= 4"
-    found = told(yard, tmp_path / "errors", "04_actions/driving", names, until=until)
+    found = ran(yard, tmp_path / "errors", "04_actions/driving", names, until=until)
     assert found["ended"] == [0, 0, 0], found["errors"]
     assert found["errors"].count(": done") == 4
 
@@ -143,7 +143,7 @@ def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
 def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
     raw = {"Blind": ["-r", "/cmd_vel:=/cmd_vel_raw"]}
     names, until = ["WholeGuard", "Blind"], "received['/cmd_vel'].count(0.4) > 20"
-    found = told(yard, tmp_path / "errors", "05_sensing", names, until=until, listen=COMMANDS, **raw)
+    found = ran(yard, tmp_path / "errors", "05_sensing", names, until=until, listen=COMMANDS, **raw)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
     assert found["received"]["/cmd_vel"][-1] == 0.4
 
@@ -152,7 +152,7 @@ def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
 def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_path):
     until = f"max(received['/cmd_vel']) == 0.4 and 'The joystick is late: stop' in errors and {STOPPED}"
     names = ["Driver", "Joystick"]
-    found = told(yard, tmp_path / "errors", "07_silence", names, until=until, listen=COMMANDS)
+    found = ran(yard, tmp_path / "errors", "07_silence", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0], found["errors"]
     assert max(found["received"]["/cmd_vel"]) == 0.4
 
@@ -165,7 +165,7 @@ def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path)
         until = "len(received['/joint_commands']) >= 7 and 'All positions are sent' in errors"
         until += " and errors.count('Received joint position') >= 7"
         programs = [publisher, "JointSubscriber"]
-        found = told(joint, tmp_path / "errors", "08_joints", programs, until=until, listen=listen)
+        found = ran(joint, tmp_path / "errors", "08_joints", programs, until=until, listen=listen)
     assert found["ended"] == [0, 0], found["errors"]
     assert found["received"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
     assert found["errors"].count("]: Received joint position: ") == 7
@@ -177,14 +177,14 @@ def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
     with robot("--world", "arm", "--headless") as arm:
         listen = {"/joint_states": ("sensor_msgs/msg/JointState", "header.stamp.sec")}
         until = "']: The goal was reached.' in errors"
-        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, until=until)
+        found = ran(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, until=until)
     assert found["ended"] == [0], found["errors"]
 
 
 @pytest.mark.soak
 def test_the_follower_of_lesson_9_drives_after_its_carrot(yard, tmp_path):
     names, until = ["Carrot", "Follower"], "max(received['/cmd_vel']) > 0.2"
-    found = told(yard, tmp_path / "errors", "09_frames", names, until=until, listen=COMMANDS)
+    found = ran(yard, tmp_path / "errors", "09_frames", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0], found["errors"]
 
 
@@ -195,16 +195,16 @@ def test_the_pole_of_lesson_10_answers_within_its_limit_and_ends_quietly(tmp_pat
     efforts = {"/cart_effort": ("std_msgs/msg/Float64", "data")}
     with robot("--world", "cart_pole", "--headless") as cart:
         until = "len(received['/cart_effort']) > 20 and max(map(abs, received['/cart_effort'])) >= 10"
-        found = told(cart, tmp_path / "errors", "10_control", ["pole_main"], number, until, listen=efforts)
+        found = ran(cart, tmp_path / "errors", "10_control", ["pole_main"], number, until, listen=efforts)
     assert (found["ended"], found["errors"]) == ([0], "")
     assert max(map(abs, found["received"]["/cart_effort"])) == 10.0
 
 
 @BOTH
 @pytest.mark.soak
-def test_the_watchdog_of_lesson_12_sends_zeros_where_nobody_drives(yard, tmp_path, number):
+def test_the_watchdog_of_lesson_12_sends_zeros_where_no_one_drives(yard, tmp_path, number):
     until = "len(received['/cmd_vel']) > 5"
-    found = told(yard, tmp_path / "errors", "12_safety", ["watchdog_main"], number, until, listen=COMMANDS)
+    found = ran(yard, tmp_path / "errors", "12_safety", ["watchdog_main"], number, until, listen=COMMANDS)
     assert (found["ended"], found["errors"]) == ([0], "")
     assert set(found["received"]["/cmd_vel"]) == {0.0}
 
@@ -215,5 +215,5 @@ def test_the_three_programs_of_lesson_13_set_out_for_an_order(tmp_path):
     with robot("--world", "warehouse", "--headless") as warehouse:
         names = ["Perception", "Decision", "Control"]
         until = "'fetch' in received['/state'] and max(received['/cmd_vel']) > 0.2"
-        found = told(warehouse, tmp_path / "errors", "13_delivery", names, until=until, listen=listen)
+        found = ran(warehouse, tmp_path / "errors", "13_delivery", names, until=until, listen=listen)
     assert (found["ended"], found["errors"]) == ([0, 0, 0], "")

@@ -32,7 +32,7 @@ def test_outputs_counts_and_widget_state_go():
     assert set(tidy["metadata"]) == {"kernelspec", "language_info"}
 
 
-def test_what_somebody_meant_stays():
+def test_what_someone_meant_stays():
     metadata = {"tags": ["hide"], **graded("test_counter"), "editable": False, "deletable": False}
     tidy = json.loads(normalized(text_of(code(metadata=metadata)), "x.ipynb"))
     assert tidy["cells"][0]["metadata"] == metadata

@@ -59,7 +59,7 @@ def machine(tmp_path: Path) -> Machine:
     return Machine(tmp_path)
 
 
-def test_another_kind_of_machine_is_told_what_to_use(machine):
+def test_another_kind_of_machine_learns_what_to_use(machine):
     machine.has("uname", "#!/bin/sh\necho Darwin arm64\n")
     assert machine.complaint() == (
         "ROS publishes its Python packages for Linux x86_64 only and this machine is Darwin arm64: "
@@ -67,7 +67,7 @@ def test_another_kind_of_machine_is_told_what_to_use(machine):
     )
 
 
-def test_an_arm_machine_without_ross_own_packages_is_told_where_they_are(machine):
+def test_an_arm_machine_without_ross_own_packages_learns_where_they_are(machine):
     machine.has("uname", "#!/bin/sh\necho Linux aarch64\n")
     assert machine.complaint(ROS_PREFIX=str(machine.folder)) == (
         "ROS publishes its Python packages for Linux x86_64 only, this machine is Linux aarch64, "
@@ -125,7 +125,7 @@ def test_a_python_that_exists_but_does_not_run_is_passed_over(machine):
     )
 
 
-def test_root_is_not_told_to_use_sudo(machine):
+def test_root_does_not_need_sudo(machine):
     machine.has("id", "#!/bin/sh\necho 0\n")
     machine.has_python("python3", "3.11", venv=False)
     assert machine.complaint().endswith("with `apt install python3.11-venv`.\n")
@@ -140,7 +140,7 @@ def test_a_missing_compiler_is_named_before_anything_is_installed(machine):
     )
 
 
-def test_a_python_without_its_headers_is_told_which_package_has_them(machine):
+def test_a_python_without_its_headers_learns_which_package_has_them(machine):
     machine.has_python("python3.12", "3.12", headers=False)
     machine.has("gcc")
     machine.has("g++")

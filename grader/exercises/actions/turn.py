@@ -32,7 +32,7 @@ def offers_to_turn(run: Recording) -> None:
 
 @turn.check(6, after=offers_to_turn, guess={
     "The angle of the goal before is still there: self.turned = 0.0 at the beginning of execute.":
-        lambda run, goal, turned: any(abs(told) > 0.3 for told in _angles(goal)[:1]),
+        lambda run, goal, turned: any(abs(angle) > 0.3 for angle in _angles(goal)[:1]),
     "It stopped far too early: are all angles in radians? The robot's are, and the goal's, too.":
         lambda run, goal, turned: any(abs(a) > 5 * abs(turned) > 0.05 for a in _angles(goal)[-1:]),
     "The robot hasn't turned: send a Twist with angular.z in the loop, each time.":

@@ -89,7 +89,7 @@ def has_one_publisher_for_each(run: Recording) -> None:
         program = end.node.strip("/")
         topic = TOPICS.get(end.name)
         if topic is None or topic.publisher != program:
-            who = topic.publisher if topic and topic.publisher else "the robot" if topic else "nobody"
+            who = topic.publisher if topic and topic.publisher else "the robot" if topic else "no program"
             hint = "One topic, one program that publishes there, and no topic that isn't needed."
             if end.name == DRIVER:
                 hint = "Exactly one program commands the motors: the one that asks the gate before."
@@ -99,7 +99,7 @@ def has_one_publisher_for_each(run: Recording) -> None:
 
 @blueprint.check(2, after=subscribes_to_what_it_needs)
 def has_matching_qos(run: Recording) -> None:
-    """Latched topics are received by late joiners, and the QoS for sensors matches theirs."""
+    """Latched topics are received by late joiners, and the QoS for sensors matches the sensors'."""
     for end in _endpoints(run, "subscription"):
         program = end.node.strip("/")
         for other in [other.qos for other in run.graph.publishers(end.name) if other.from_course]:

@@ -69,7 +69,7 @@ deliver = Exercise(
 
 
 @deliver.check(1, lasts=True)
-def touches_nobody(run: Recording) -> None:
+def touches_no_one(run: Recording) -> None:
     """In no run the robot touches a person, or drives within 0.5 m of one: such a run earns no more."""
     moment, near = shift(run).met_person, nearest_person(run, DRIVING)
     if moment is not None:
@@ -82,7 +82,7 @@ def touches_nobody(run: Recording) -> None:
         raise Missed(f"a robot that stands within {CLOSE} m", saw, hint, picture="path", unsafe=True)
 
 
-@deliver.check(5, after=touches_nobody, only="shift", hints=IDLE)
+@deliver.check(5, after=touches_no_one, only="shift", hints=IDLE)
 def delivers(run: Recording) -> None:
     """In a shift of 150 s at least two orders are delivered."""
     done = shift(run)
@@ -112,7 +112,7 @@ def touches_nothing(run: Recording) -> None:
         raise Missed("no contact", saw, hint, picture="path")
 
 
-@deliver.check(3, after=touches_nobody, only="blind", hints=IDLE)
+@deliver.check(3, after=touches_no_one, only="blind", hints=IDLE)
 def stands_blind(run: Recording) -> None:
     """Whenever the lidar falls silent, the robot stands within 1 s."""
     drove = False
@@ -131,7 +131,7 @@ def stands_blind(run: Recording) -> None:
         raise Missed("a robot that drives when the lidar falls silent", "it stood before")
 
 
-WAITS_FOR_EVER = "The scans are back, and so should be poses and plans: nothing may wait for ever."
+WAITS_FOR_EVER = "The scans are back, and so should be poses and plans: nothing may wait forever."
 SAME_WAY = "Plan anew once a second, with what the lidar sees as solid as a wall."
 SAME_ORDER = "An order that is canceled is published once more: its status says so. Choose again."
 NEW_MESSAGES_ONLY = ("A program that is restarted receives old orders, the map and the dock only if it "
@@ -145,19 +145,19 @@ def sees_again(run: Recording) -> None:
     _require_delivery(run)
 
 
-@deliver.check(3, after=touches_nobody, only="blocked", hints=_unless_idle(SAME_WAY))
+@deliver.check(3, after=touches_no_one, only="blocked", hints=_unless_idle(SAME_WAY))
 def goes_round(run: Recording) -> None:
     """When a box blocks its way that no map shows, it finds another way, and delivers the order."""
     _require_delivery(run)
 
 
-@deliver.check(2, after=touches_nobody, only="canceled", hints=_unless_idle(SAME_ORDER))
+@deliver.check(2, after=touches_no_one, only="canceled", hints=_unless_idle(SAME_ORDER))
 def takes_another(run: Recording) -> None:
     """When its order is canceled under way, it carries out another one."""
     _require_delivery(run)
 
 
-@deliver.check(2, after=touches_nobody, only="restarted", hints=_unless_idle(NEW_MESSAGES_ONLY))
+@deliver.check(2, after=touches_no_one, only="restarted", hints=_unless_idle(NEW_MESSAGES_ONLY))
 def comes_back(run: Recording) -> None:
     """Each program is killed once, and started again 2 s later: the order is delivered all the same."""
     _require_delivery(run)

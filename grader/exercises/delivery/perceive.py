@@ -161,12 +161,12 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
 
 def _begins_at_base_link(run: Recording, row: Message) -> bool:
     """Whether the obstacles of a scan are where its rays would end, did they begin at base_link."""
-    scan, told = (next((one for one in rows if _nanoseconds(one) == _nanoseconds(row)), None)
+    scan, sent = (next((one for one in rows if _nanoseconds(one) == _nanoseconds(row)), None)
                   for rows in (from_course(run, "/scan"), from_student(run, OBSTACLES)))
-    if not (scan and told and _points(told)):
+    if not (scan and sent and _points(sent)):
         return False
     robot = _nearest(run.path, _time(row))[1:]
-    off = [_off(_points(told), points_of(scan.message, pose))
+    off = [_off(_points(sent), points_of(scan.message, pose))
            for pose in (robot, run.world.lidar.mounted_at(robot))]
     return off[0] < EXACT < off[1]
 

@@ -154,7 +154,7 @@ def _states(run: Recording) -> list[tuple[Jam, bool]]:
 
 
 def _is_freed(run: Recording, jam: Jam) -> bool:
-    """Whether the lift is told in time to stay where it is stuck."""
+    """Whether the lift gets a command in time to stay where it is stuck."""
     sent = Window.after(jam.stamp, REACTION).rows(run.messages(COMMANDS))
     return any(same(row.message.data, jam.position, NEAR) for row in sent)
 

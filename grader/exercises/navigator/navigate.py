@@ -55,7 +55,7 @@ def _scenario(kind: str, seed: int, cancel_after: float | None = None) -> Scenar
 navigate = Exercise("navigate", "The navigator", scenarios=[
     _scenario("clutter", 3, CANCEL_AFTER), _scenario("maze", 2), _scenario("blocked", 2),
 ])
-KNOWN = "clutter", "maze"  # where all that stands in the way is in the map
+KNOWN = "clutter", "maze"  # where every obstacle is in the map
 
 
 def _other_action(run: Recording) -> Any:

@@ -132,7 +132,7 @@ def _hands_over(command: CMakeCommand, sources: Sources) -> None:
     left_out = [path for path in FILES if path not in named]
     if left_out:
         credit = 0.5 if len(left_out) < len(FILES) else 0.0
-        hint = "What isn't named there is not there for anybody. Write folder and file, as they are spelled."
+        hint = "A file that isn't named there isn't installed. Write folder and file as they are spelled."
         expected = f"{', '.join(FILES)} in {GENERATOR}"
         raise Missed(expected, ", ".join(named) or "none", hint, credit=credit)
     there = {*FILES, *(path.removeprefix(f"{NAME}/") for path in sources)}

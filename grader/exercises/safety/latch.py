@@ -13,7 +13,7 @@ from sim.evidence import Call, Recording, Seconds
 
 SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when the button is silent
 LATELY = 0.25  # s, for which a command may be repeated
-LATCH = ("It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that "
+LATCH = ("It released by itself. Remember in self.stopped that it was pressed: only /reset may make that "
          "False again, and not a False from the button.")
 BROKEN = ("A broken cable counts as pressed: as long as the button is silent, refuse /reset. Not the timer "
           "alone: reset, too, has to look at how old the button's last message is.")
@@ -74,10 +74,10 @@ def stops(run: Recording) -> None:
 
 @latch.check(4, after=stops)
 def stays_stopped(run: Recording) -> None:
-    """It stays so when the button is let go, whatever the driver says, until it is reset."""
+    """It stays stopped when the button is released, whatever the driver sends, until it is reset."""
     when = _times(run)
     released = Window(when.release, _granted(run).requested)
-    require_standing(run, released, f"after the button was let go at {when.release:.3g} s", LATCH)
+    require_standing(run, released, f"after the button was released at {when.release:.3g} s", LATCH)
 
 
 @latch.check(3, after=stops)
@@ -89,7 +89,7 @@ def answers_resets(run: Recording) -> None:
         right = released and not broken
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
-            state = "'s cable broken" if broken else " let go" if released else " still in"
+            state = "'s cable broken" if broken else " released" if released else " still in"
             hint = "response.success says whether it could be done; return the response. Ask self.pressed."
             expected = f"success={right} at {call.requested:.3g} s, with the button{state}"
             granted_unsafely = call.response is not None and call.response.success
@@ -100,7 +100,7 @@ def answers_resets(run: Recording) -> None:
 def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stands until a new command comes."""
     when, reset = _times(run), _granted(run).requested
-    hint = "The command from before the stop is out of date: a reset lets go, and moves nothing by itself."
+    hint = "The command from before the stop is out of date: a reset moves nothing by itself."
     why = f"from the reset at {reset:.3g} s to the next command"
     require_standing(run, Window(reset, when.resumed), why, hint)
 

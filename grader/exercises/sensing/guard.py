@@ -116,7 +116,7 @@ def lets_turn(run: Recording, moments: list[Moment]) -> None:
 def stops_without_driver(run: Recording) -> None:
     """When the driver falls silent, the robot stands within 1 s."""
     hint = ("Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
-            "zeros go out. Else the timer repeats the last command for ever.")
+            "zeros go out. Otherwise the timer repeats the last command forever.")
     _stands(run, _pauses(run, RAW), "the driver's last command", hint)
 
 

@@ -65,7 +65,7 @@ def drives_as_the_mode_says(run: Recording) -> Seconds:
 @modes.check(3, after=offers_its_services)
 def refuses_other_modes(run: Recording) -> None:
     """A mode that it doesn't know is refused, with a reason; also at the start."""
-    if not run.calls_of(SET):  # nobody sets it in this run
+    if not run.calls_of(SET):  # not set in this run
         _starts_with_no_other(run)
         return
     call = next(call for call in course_calls(run, SET, at_least=3) if _mode(call) not in MODES)

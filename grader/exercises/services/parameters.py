@@ -57,7 +57,7 @@ def follows_the_setting(run: Recording) -> None:
 @parameters.check(4, after=declares_speed)
 def refuses_other_speeds(run: Recording) -> None:
     """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing; also at the start."""
-    if not run.calls_of(SET):  # nobody sets it in this run
+    if not run.calls_of(SET):  # not set in this run
         _starts_with_no_other(run)
         return
     others = [call for call in course_calls(run, SET, SETTINGS) if not _is_allowed(call)]

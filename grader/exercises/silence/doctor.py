@@ -16,10 +16,10 @@ CURES = {"name": "topic", "mute": "running"} | {name: name for name in SETTINGS}
 CHANGES_ALL = "If you change everything, you fix by chance, and break what was right. Find the fault first."
 WHY = {
     "name": "A publisher has nearly this name. Compare with all topics: get_topic_names_and_types().",
-    "nobody": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
-    "reliability": "The sensor offers best effort, and the display asks for reliable.",
-    "durability": "The display asks for transient local, and the sensor is volatile.",
-    "deadline": "The display asks for a shorter deadline than the sensor offers; none at all is longest.",
+    "missing": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
+    "reliability": "The sensor offers best effort, and the display requests reliable.",
+    "durability": "The display requests transient local, and the sensor is volatile.",
+    "deadline": "The display requests a shorter deadline than the sensor offers; none at all is longest.",
     "mute": "All settings fit, and still nothing comes: the sensor is there, and doesn't speak.",
 }
 
@@ -56,7 +56,7 @@ def answers_complaints(run: Recording) -> None:
         lambda run, one: not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)},
     "Publish the topic of the complaint, a colon and the word; `on_message` does it if examine returns.":
         lambda run, one: not one.words,
-    "Settings that differ may fit: a sensor may offer more than the display asks for. "
+    "Settings that differ may fit: a sensor may offer more than the display requests. "
     "Here it is this: {why}": lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]},
     "{why}": lambda run, *about: about and {"why": WHY[about[0].case.fault]},
 })
@@ -75,7 +75,7 @@ def names_the_faults(run: Recording) -> None:
 @doctor.check(8, after=answers_complaints)
 def fixes_the_faults(run: Recording) -> None:
     """It fixes the fault, by that alone: every display receives from its sensor again, if there is one."""
-    systems = [one for one in _systems(run) if one.case.fault != "nobody"]
+    systems = [one for one in _systems(run) if one.case.fault != "missing"]
     broken = [one for one in systems if not one.receives or one.idle]
     if broken:
         first, right = broken[0], len(systems) - len(broken)

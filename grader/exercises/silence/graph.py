@@ -13,7 +13,7 @@ from sim.evidence import Recording, Seconds
 STRING = "std_msgs/msg/String"
 QUESTION, ANSWER = "/question", "/answer"
 LATELY = 0.3  # s; each publisher of the course publishes every 0.2 s
-NOBODY = "nobody"
+NONE = "none"
 
 WRONG = {
     "Publish once in the callback, all names in one message: ', '.join(names).":
@@ -23,7 +23,7 @@ WRONG = {
     "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).":
         lambda run, one: (names := set(_names(one))) and not names <= set(one.speakers)
         and names <= {end.node for end in run.graph.subscriptions(one.topic)},
-    f"An empty list of names gives an empty text: publish “{NOBODY}” then.": lambda run, one: not _names(one),
+    f"An empty list of names gives an empty text: publish “{NONE}” then.": lambda run, one: not _names(one),
     "A node with two publishers is in the list twice: make a set of the names first.":
         lambda run, one: len(_names(one)) > len(set(_names(one))),
     "The names are right, and their order isn't: sorted(...) puts them in order.":
@@ -50,7 +50,7 @@ class GraphQuestion(NamedTuple):
     @property
     def right(self) -> str:
         """The answer."""
-        return ", ".join(self.speakers) or NOBODY
+        return ", ".join(self.speakers) or NONE
 
 
 @graph.check(2)
@@ -68,8 +68,8 @@ def names_the_publishers(run: Recording) -> None:
 
 
 @graph.check(2, after=names_the_publishers, hints=WRONG)
-def answers_nobody(run: Recording) -> None:
-    """If it has none, the answer is “nobody”."""
+def answers_none(run: Recording) -> None:
+    """If it has none, the answer is “none”."""
     questions = [one for one in _questions(run) if not one.speakers]
     _right(run, questions, "topics without publishers")
 

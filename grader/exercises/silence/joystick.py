@@ -52,7 +52,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
 
 @joystick.check(5, after=stops_when_it_falls_silent)
 def requests_a_deadline(run: Recording) -> None:
-    """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
+    """Its subscription requests a deadline of 0.3 s or less, and the joystick can keep it."""
     shortest = _deadline(run)
     if not OFFERED - EDGE <= shortest <= LONGEST + EDGE:
         saw = "none" if shortest == math.inf else f"{shortest:g} s"

@@ -1,4 +1,4 @@
-"""Another robot's node, connected to ours by remapping its topics."""
+"""Another robot's node, connected to the course's robot by remapping its topics."""
 
 from grader.checks import arrives, ends_with_a_stop, publishes, stands_still, subscribes
 from grader.exercise import Exercise

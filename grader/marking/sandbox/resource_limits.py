@@ -53,7 +53,7 @@ class ProcessEnd:
 def apply(limits: ResourceLimits, own_users: bool) -> None:
     """Limit this process from now on. own_users: whether it has a user namespace of its own.
 
-    The supervisor watches the CPU time: with Linux's own limit, the end could not be told from other kills.
+    The supervisor watches the CPU time: with Linux's own limit, this end would look like any other kill.
     """
     figures = {
         resource.RLIMIT_AS: limits.memory_mb * MB,

@@ -63,10 +63,10 @@ def read_notebook(data: bytes, file: str) -> PlainNotebook:
     found = list(_raw_cells(content))
     if not found and not isinstance(content.get("cells"), list):
         problem = f"{quote(file)} holds no cells; expected a notebook."
-        raise Unusable(f"{problem} Hand in the notebook's own file, as it lies in JupyterLab.")
+        raise Unusable(f"{problem} Hand in the notebook's own file, as JupyterLab saves it.")
     if len(found) > MAX_CELLS:
         problem = f"{quote(file)} has {len(found)} cells; at most {MAX_CELLS} can be marked."
-        raise Unusable(f"{problem} Delete those that nobody needs and hand it in again.")
+        raise Unusable(f"{problem} Delete those that you don't need and hand it in again.")
     version = content.get("nbformat")
     if version != 4:
         seen = quote(version) if isinstance(version, (int, float, str)) else "unknown"

@@ -30,7 +30,7 @@ def read_json_object(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]
         raise Unusable(f"{quote(file)} {saw}; expected a notebook. {AGAIN}")
     if data.startswith(b"PK\x03\x04"):
         problem = f"{quote(file)} is a zip archive; expected a notebook."
-        raise Unusable(f"{problem} Unpack it and hand in the notebook that lies in it.")
+        raise Unusable(f"{problem} Unpack it and hand in the notebook inside.")
     if (parts := sum(map(data.count, (b"{", b"[", b",")))) > MAX_JSON_PARTS:
         raise Unusable(
             f"{quote(file)} is made of {parts / 1e6:.0f} million parts; at most {MAX_JSON_PARTS / 1e6:g} "

@@ -88,12 +88,12 @@ def find_suspicious_code(cells: Iterable[tuple[str, str]]) -> list[str]:
     looked = 0
     for name, source in cells:
         if len(source) > MAX_SOURCE:
-            long = f"has more than {MAX_SOURCE} characters: nobody has looked through it"
+            long = f"has more than {MAX_SOURCE} characters: it was not searched"
             found.setdefault(f"The cell `{name}` {long}.")
             continue
         looked += len(source)
         if looked > MAX_SOURCES:
-            long = f"and those before it have more than {MAX_SOURCES} characters: nobody has looked further"
+            long = f"and those before it have more than {MAX_SOURCES} characters: the rest was not searched"
             found.setdefault(f"The cell `{name}` {long}.")
             break
         tree = _parse(source)

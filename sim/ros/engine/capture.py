@@ -22,7 +22,7 @@ RAW_QOS = re.compile(r"\[WARN\] .*: New (publisher|subscription) discovered on t
 class StudentStream:
     """Replaces a text stream during a run: student code writes to the run, all others to the original.
 
-    It has no reference to a run, because a library that is first imported in a run may store it for ever.
+    It has no reference to a run, because a library that is first imported in a run may store it forever.
     """
 
     def __init__(self, original: Any, channel: str) -> None:

@@ -39,7 +39,7 @@ def blocked(engine: Engine) -> str | None:
 
 
 def _blocked_call(engine: Engine) -> str | None:
-    """A callback on the stack of a fiber that waits for ever."""
+    """A callback on the stack of a fiber that waits forever."""
     for fiber in engine.fibers:
         running = fiber.callbacks[-1] if fiber.callbacks else None
         if running is None or fiber.wake_at is not None or engine.now - running.began < BLOCKED_AFTER:

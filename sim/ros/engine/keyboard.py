@@ -27,12 +27,12 @@ class _Lines(_NoTerminal, io.StringIO):
 
 
 class _NoInput(_NoTerminal):
-    """Raises when it is read, where a robot's terminal would wait for ever."""
+    """Raises when it is read, where a robot's terminal would wait forever."""
 
     def read(self, size: int | None = -1, /) -> str:
         """As `TextIO.read`. Raises RuntimeError."""
         raise RuntimeError(
-            "input() waits for somebody at the keyboard; give it lines, as in run(Process(main, "
+            "input() waits for a person at the keyboard; give it lines, as in run(Process(main, "
             'stdin=["first line", "second line"])), or let the node get its input from topics and parameters'
         )
 

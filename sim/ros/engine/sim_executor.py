@@ -90,7 +90,7 @@ class SimExecutor(Waiter):
     def spin_once(
         self, timeout: float | TimeoutObject | None, done: Callable[[], bool], parallel: bool
     ) -> None:
-        """Run one callback, waiting for it up to `timeout` simulated seconds (None or negative: for ever)."""
+        """Run one callback, waiting for it up to `timeout` simulated seconds (None or negative: forever)."""
         engine = self.engine
         engine.current.process.check_init()
         until = self._end_of(timeout)

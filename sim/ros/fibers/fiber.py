@@ -105,7 +105,7 @@ class Fiber:
         return self.waiter is not None and in_time
 
     def park(self) -> None:
-        """Leave this fiber where it is, for ever.
+        """Leave this fiber where it is, forever.
 
         For code that swallows every exception thrown into it. Freeing its greenlet would throw once more, so
         it is made immortal: a small leak instead of a lost kernel. Call only from this fiber's own stack.

@@ -1,4 +1,4 @@
-"""Locks for fibers: waiting for a real one would block, for ever, the thread that all of them share."""
+"""Locks for fibers: waiting for a real one would block the thread that all of them share forever."""
 
 from __future__ import annotations
 

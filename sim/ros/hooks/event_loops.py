@@ -13,7 +13,7 @@ from sim.ros.hooks.table import hook
 
 
 def _wait(run: Any, what: str, timeout: float | None, is_ready: Callable[[], Any]) -> None:
-    """Wait until it is, for so many simulated seconds at most; None for ever."""
+    """Wait until it is, for so many simulated seconds at most; None: forever."""
     if not is_ready() and (timeout is None or timeout > 0):
         until = None if timeout is None else run.now + nanoseconds(timeout)
         run.wait(what, ready=is_ready, until=until)

@@ -20,7 +20,7 @@ from sim.ros.messages.codec import encode, expect
 
 
 def _seek(node: Node, service: Any) -> None:
-    """Create the proxies of another process first: an endpoint with another type than theirs is refused."""
+    """Create the proxies of another process first: an endpoint with another type is refused."""
     run = engine()
     if run is not None and run.transport.peer is not None:
         with contextlib.suppress(_rclpy.RCLError, TypeError):  # not a name: rclpy raises later

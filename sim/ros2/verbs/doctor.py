@@ -83,7 +83,7 @@ def _reason(publisher: Endpoint, subscription: Endpoint) -> str:
         return ""
     policy, offered, requested = mismatch
     return (
-        f"{publisher.node} publishes {offer(policy, offered)}, and {subscription.node} asks for {requested}"
+        f"{publisher.node} publishes {offer(policy, offered)}, and {subscription.node} requests {requested}"
     )
 
 

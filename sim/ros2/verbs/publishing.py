@@ -117,4 +117,4 @@ def _near_topic(node: Node, name: str) -> str:
     known = [topic for topic, _ in node.get_topic_names_and_types() if topic != name]
     near = closest_match(name, known)
     unmatched = near and not node.count_subscribers(name)
-    return f" Nobody listens on {name}. Did you mean {near}?" if unmatched else ""
+    return f" No node subscribes to {name}. Did you mean {near}?" if unmatched else ""

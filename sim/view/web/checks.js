@@ -45,7 +45,7 @@ function checkWorld(world) {
   };
 }
 
-const BOXES = ["node", "ours", "topic", "service", "action", "rest"];
+const BOXES = ["node", "course", "topic", "service", "action", "rest"];
 
 /** Parses the data of ../graph_data.py; throws a TypeError if it is invalid. */
 function checkGraph(graph) {

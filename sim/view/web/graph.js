@@ -74,7 +74,7 @@ class Graph {
   }
 
   box({ kind, name, lines, place: [x, y, width, height] }) {
-    const round = { node: height / 2, ours: height / 2, action: 6 }[kind] ?? 0;
+    const round = { node: height / 2, course: height / 2, action: 6 }[kind] ?? 0;
     const middle = x + width / 2, first = y + height / 2 - LINE * (lines.length - 1) / 2 + 4;
     const rows = lines.map((line, index) => makeSvg("text", { x: middle, y: first + index * LINE, class: index ? "much" : "" }, line));
     if (kind === "topic" && !lines[1]) this.rates.set(name, rows[1]);

@@ -119,7 +119,7 @@ class View {
     this.points = inputs.includes("points");
     if (this.drives || inputs.includes("keys")) {
       this.pad = new Pad(this.root, (command) => this.send(command));
-      this.stage.append(this.pad.root); // in the picture: nobody drives a robot that is out of sight
+      this.stage.append(this.pad.root); // in the picture: a robot that is out of sight can't be driven
     }
     this.howTo = this.points ? POINT_HOW : this.drives ? HOW : this.pad ? MOVE_HOW : "";
     this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, go on step by step, and end it.");
@@ -278,8 +278,8 @@ class View {
     this.warningLine.hidden = !warning;
     if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
-    const told = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
-    if (told !== this.event) this.statusLine.textContent = this.event = told;
+    const text = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
+    if (text !== this.event) this.statusLine.textContent = this.event = text;
   }
 
   showTopic({ name, type, rate, count = 0 }) {

@@ -23,7 +23,7 @@ _CHARGERS = 1.2, 0.8, 0.3  # m; the x of the second robot's charger, the spacing
 _STAND = 0.25  # m from a shelf or desk to the center of a robot in front of it
 _TOPICS = (
     "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /battery_state (sensor_msgs/BatteryState), "
-    "/tf, /tf_static (also map to odom) and /clock; and, kept for whoever comes later, /map "
+    "/tf, /tf_static (also map to odom) and /clock; and, latched, /map "
     "(nav_msgs/OccupancyGrid, without boxes to push), /dock_pose (geometry_msgs/PoseStamped, the charger) "
     "and /orders (warehouse_msgs/Order)."
 )
@@ -118,7 +118,7 @@ class Warehouse(Model):
         return card(
             f"A warehouse of {width:g} m by {height:g} m with a wall all round{things}. The charger is at "
             f"x {charger[0]:g}, y {charger[1]:g}, the desk at y {desk:g}; a place lies before each shelf. "
-            "People stop for what stands in their way, and for nothing that moves.",
+            "People stop for static obstacles, and for nothing that moves.",
             f"At the charger, at x {charger[0]:g}, y {charger[1]:g}, facing along x."
             + "".join(f" {it.name} at its own, at x {it.start[0]:g}, y {it.start[1]:g}." for it in others),
             _TOPICS + "".join(f" {robot.name} has its own under /{robot.name}." for robot in others),

@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-/* Rays this near (in ray spacings) to a wall's end still meet it: none slips through a shared corner. */
+/* Rays this near (in ray spacings) to a wall's end still meet it: none passes through a shared corner. */
 static const double EDGE = 1e-9;
 /* A wall seen end-on, under less than this angle, is invisible: its distance would be rounding noise. */
 static const double END_ON = 1e-6;

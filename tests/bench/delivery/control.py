@@ -57,7 +57,7 @@ class Control(Node):
             self.way = []
 
     def stand(self):
-        """Nobody says any more where the robot is: say so to the motors, again and again."""
+        """No one says any more where the robot is: say so to the motors, again and again."""
         if self.get_clock().now().nanoseconds - self.placed > 0.5e9:
             self.publisher.publish(Twist())
 

@@ -27,7 +27,7 @@ class Thing:
             self.anchor, self.moved = (x, y), now
 
     def may_walk(self, now):
-        """Whoever walked a moment ago is a person, and what is new may be one."""
+        """What walked a moment ago is a person, and what is new may be one."""
         return now - self.moved < 6.0 or now - self.born < 1.0
 
 

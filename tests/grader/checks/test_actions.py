@@ -68,7 +68,7 @@ def test_serves_action_finds_the_server():
     assert end.node == "/server"
 
 
-def test_serves_action_misses_one_that_nobody_offers():
+def test_serves_action_misses_one_that_no_one_offers():
     miss = missed(serves_action, recording(), "/fibonacci", FIBONACCI)
     assert (miss.expected, miss.saw) == (
         f"an action server /fibonacci of type {FIBONACCI}",
@@ -83,7 +83,7 @@ def test_serves_action_misses_one_that_nobody_offers():
 
 
 def test_sends_goals_gives_the_goals():
-    assert [goal.request.order for goal in sends_goals(ran(goals.asks_nobody), "/fibonacci", FIBONACCI)] == [
+    assert [goal.request.order for goal in sends_goals(ran(goals.asks_no_one), "/fibonacci", FIBONACCI)] == [
         1
     ]
 
@@ -95,7 +95,7 @@ def test_sends_goals_misses_a_client_and_its_goals():
     assert miss.expected == f"an action client for /fibonacci of type {FIBONACCI}"
     miss = missed(sends_goals, ran(actions.Client, seconds=1), "/fibonacci", FIBONACCI)
     assert (miss.expected, miss.saw) == ("a goal for /fibonacci", "a client, but no goal")
-    miss = missed(sends_goals, ran(goals.asks_nobody), "/fibonacci", at_least=2)
+    miss = missed(sends_goals, ran(goals.asks_no_one), "/fibonacci", at_least=2)
     assert (miss.expected, miss.saw) == ("2 or more goals for /fibonacci", "only 1 in 6 s")
 
 
@@ -124,11 +124,11 @@ def test_the_first_goal_of_another_decision_is_named_and_the_others_give_credit(
 
 def test_a_decision_is_missed_where_there_is_none():
     assert missed(accepts, ran(goals.JudgeRaises, actions.Client), "/fibonacci").saw == "no decision on it"
-    asked = ran(misfits.server_that_nobody_spins, actions.Client)
-    assert missed(accepts, asked, "/fibonacci").saw == "nobody took the goal"
+    asked = ran(misfits.server_that_no_one_spins, actions.Client)
+    assert missed(accepts, asked, "/fibonacci").saw == "no server took the goal"
 
 
-def test_a_decision_needs_somebody_who_asks():
+def test_a_decision_needs_someone_who_asks():
     assert missed(accepts, recording(), "/fibonacci").saw == "no server for it"
     both, high = ran(actions.Server, actions.Client), {"where": lambda goal: goal.request.order > 5}
     miss = missed(accepts, both, "/fibonacci", **high)
@@ -307,7 +307,7 @@ def test_a_goal_that_the_course_should_have_canceled_is_none_of_the_students_mis
         cancels(run, "/fibonacci")
 
 
-def test_cancels_needs_somebody_who_asks():
+def test_cancels_needs_someone_who_asks():
     miss = missed(cancels, ran(actions.Server, actions.Client), "/fibonacci")
     assert (miss.expected, miss.saw) == ("goals for /fibonacci that are canceled", "none")
 

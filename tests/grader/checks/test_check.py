@@ -14,7 +14,7 @@ def test_the_docstrings_first_paragraph_is_the_sentence():
         """The node sends
         velocity commands.
 
-        A remark for whoever reads the code.
+        A remark for readers of the code.
         """
 
     assert isinstance(drives, Check)

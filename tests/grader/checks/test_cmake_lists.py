@@ -37,7 +37,7 @@ def test_commands_have_their_words_with_variables_put_in():
         ("a", "a without (...)", "A command ends with its bracket."),
     ],
 )
-def test_what_cmake_can_not_read_is_told(text, saw, hint):
+def test_what_cmake_can_not_read_is_reported(text, saw, hint):
     with pytest.raises(Missed) as missed:
         read_commands(text.encode())
     assert missed.value.expected == "a CMakeLists.txt that can be read"

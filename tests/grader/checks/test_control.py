@@ -76,7 +76,7 @@ def test_a_run_without_a_pole_is_our_mistake():
         stands(recording())
 
 
-def test_a_pole_that_nobody_holds():
+def test_a_pole_that_no_one_holds():
     miss = missed(stands, carried([0.1, 0.3, 0.6, 1.0]))
     assert (miss.expected, miss.saw) == (
         "a pole that stands for 0.4 s",

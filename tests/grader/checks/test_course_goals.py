@@ -42,13 +42,13 @@ def missed(function, *arguments):
 
 
 def test_the_courses_goals_for_a_server_are_given():
-    ours, theirs = goal(), goal(from_course=False)
-    run = recording(goals=[theirs, ours], graph=Graph(["/server"], [SERVER]))
-    assert offered(run, FIBONACCI, FIBONACCI_TYPE) == [ours]
-    assert fibonacci_offered(run) == [ours]
+    own, other = goal(), goal(from_course=False)
+    run = recording(goals=[other, own], graph=Graph(["/server"], [SERVER]))
+    assert offered(run, FIBONACCI, FIBONACCI_TYPE) == [own]
+    assert fibonacci_offered(run) == [own]
     for miss in (
-        missed(offered, recording(goals=[ours]), FIBONACCI, FIBONACCI_TYPE),
-        missed(fibonacci_offered, recording(goals=[ours])),
+        missed(offered, recording(goals=[own]), FIBONACCI, FIBONACCI_TYPE),
+        missed(fibonacci_offered, recording(goals=[own])),
     ):
         assert miss.expected == f"an action server /fibonacci of type {FIBONACCI_TYPE}"
     assert miss.hint == (

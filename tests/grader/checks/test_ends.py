@@ -18,7 +18,7 @@ FLOAT32, FLOAT64 = "std_msgs/msg/Float32", "std_msgs/msg/Float64"
 
 def graph(*ends):
     """A run with ends, given as kind, name, type, and whether it is the course's."""
-    return recording(graph=Graph([], [Endpoint(kind, "/node", name, type, {}, ours) for kind, name, type, ours in ends]))
+    return recording(graph=Graph([], [Endpoint(kind, "/node", name, type, {}, own) for kind, name, type, own in ends]))
 
 
 def missed(*arguments):
@@ -41,7 +41,7 @@ def test_the_students_ends_of_a_kind_a_name_and_a_type_are_found(kind):
 
 
 @pytest.mark.parametrize(
-    ("kind", "nobody", "instead"),
+    ("kind", "absent", "instead"),
     [
         ("publisher", "no publisher there", "there is one on /far"),
         ("subscription", "no subscription there", "there is one to /far"),
@@ -51,13 +51,13 @@ def test_the_students_ends_of_a_kind_a_name_and_a_type_are_found(kind):
         ("action client", "no client for it", "there is one for /far"),
     ],
 )
-def test_where_there_is_none_the_others_of_its_kind_are_named(kind, nobody, instead):
+def test_where_there_is_none_the_others_of_its_kind_are_named(kind, absent, instead):
     miss = missed(graph(), kind, "/near", "")
-    assert (miss.saw, miss.hint, miss.typo) == (nobody, "", None)
+    assert (miss.saw, miss.hint, miss.typo) == (absent, "", None)
     miss = missed(graph((kind, "/far", FLOAT32, False)), kind, "/near", "")
-    assert (miss.saw, miss.hint, miss.typo) == (f"{nobody}; {instead}", "", None)
+    assert (miss.saw, miss.hint, miss.typo) == (f"{absent}; {instead}", "", None)
     both = (kind, "/far", FLOAT32, False), (kind, "/away", FLOAT32, False), (kind, "/far", FLOAT32, False)
-    assert missed(graph(*both), kind, "/near", "").saw == f"{nobody}; {instead.replace('/far', '/away, /far')}"
+    assert missed(graph(*both), kind, "/near", "").saw == f"{absent}; {instead.replace('/far', '/away, /far')}"
 
 
 @pytest.mark.parametrize("kind", OTHER)

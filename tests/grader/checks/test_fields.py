@@ -12,7 +12,7 @@ SPEED = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.5)
 SIZES = ParameterValue(type=ParameterType.PARAMETER_INTEGER_ARRAY, integer_array_value=[1, 2])
 
 
-def test_messages_are_told_in_words():
+def test_messages_are_reported_in_words():
     assert message_text(SetBool.Response(success=True, message="on")) == "success=True, message='on'"
     assert message_text(Fibonacci.Result(sequence=[0, 1])) == "sequence=[0, 1]"
     assert words({"sum": 5, "ok": True}) == "sum=5, ok=True"
@@ -42,7 +42,7 @@ def test_a_stamp_is_shown_as_a_time_in_the_run_or_as_it_is():
     assert stamp_words(before) == f"sec={before.sec}, nanosec={before.nanosec}"
 
 
-def test_setting_parameters_is_told_by_their_names():
+def test_setting_parameters_is_reported_by_their_names():
     asked = SetParameters.Request(
         parameters=[Parameter(name="speed", value=SPEED), Parameter(name="sizes", value=SIZES)]
     )
@@ -60,12 +60,12 @@ def test_all_parameters_must_be_set():
     assert message_text(SetParameters.Response()) == "results=[]"
 
 
-def test_parameters_are_told_by_their_values():
+def test_parameters_are_reported_by_their_values():
     assert message_text(GetParameters.Response(values=[SPEED])) == "value=0.5"
     assert message_text(GetParameters.Response(values=[SPEED, ParameterValue()])) == "value=[0.5, None]"
 
 
-def test_the_first_values_of_a_list_are_told_in_words():
+def test_the_first_values_of_a_list_are_reported_in_words():
     assert listed(range(1, 9)) == "1, 2, 3, 4, 5, 6, 7, 8"
     assert listed(range(1, 10)) == "1, 2, 3, 4, 5, 6, 7, 8, ..."
 

@@ -71,7 +71,7 @@ def test_each_part_has_its_lines_as_rosidl_understands_them():
         ("x] a", "line 1: x] a", f"`x]` is no type. {TYPES}"),
     ],
 )  # fmt: skip
-def test_what_can_not_be_read_is_told(text, saw, hint, capsys):
+def test_what_can_not_be_read_is_reported(text, saw, hint, capsys):
     with pytest.raises(Missed) as missed:
         read_definition("msg/A.msg", text.encode(errors="surrogateescape"), "mine")
     assert missed.value.expected == "msg/A.msg in a form that rosidl can read"

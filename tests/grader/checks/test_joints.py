@@ -33,7 +33,7 @@ def reaching(places, walls=()):
     return recording(world=world, tracks=tracks)
 
 
-def test_the_tip_is_where_it_was_told_to_be():
+def test_the_tip_is_where_it_was_sent():
     run = reaching(LINE)
     assert [pose[1:3] for pose in tip_path(run)] == [pytest.approx(place) for place in LINE]
     assert tip_at(run, 0.9).stamp == 0.0

@@ -348,7 +348,7 @@ def test_answers_misses_a_line_before_the_first_message():
     assert missed(answers, warned((0.5, "WARN"), (2.0, "WARN")), "/level", **LOW).saw == "“low” at 0.5 s"
 
 
-def test_answers_leaves_lines_of_ours_alone_where_they_shall_be_the_only_ones():
+def test_answers_leaves_lines_of_the_course_alone_where_they_shall_be_the_only_ones():
     run = warned((2.0, "WARN"), (3.0, "WARN"))
     run.logs[1] = run.logs[1]._replace(node="pilot", from_course=True)
     answers(run, "/level", **LOW)

@@ -168,7 +168,7 @@ def test_stands_still_looks_at_the_angle_too(side):
     assert miss.saw == "it turned by 0.006 rad"
 
 
-def test_a_robot_that_stands_was_told_to():
+def test_a_robot_that_is_stopped_was_commanded_to():
     ends_with_a_stop(run(flaws.Driver, world="yard", seconds=5, quiet=True))
     with pytest.raises(Missed) as caught:
         ends_with_a_stop(run(flaws.FallsSilent, world="yard", seconds=5, quiet=True))

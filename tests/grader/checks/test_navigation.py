@@ -58,8 +58,8 @@ def faults(*rows, **more):
 
 
 def test_the_goals_are_those_of_the_course():
-    ours, theirs = goal(), goal(from_course=False)
-    assert goals_from_course(driven(theirs, ours)) == [ours]
+    own, other = goal(), goal(from_course=False)
+    assert goals_from_course(driven(other, own)) == [own]
 
 
 def test_without_a_goal_the_client_found_no_server():

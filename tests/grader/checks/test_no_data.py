@@ -29,7 +29,7 @@ def test_where_the_course_should_have_sent_it_the_exercise_is_wrong():
         assert str(mistake) == "nodes of the exercise's own should have sent scans: none"
 
 
-def test_where_the_run_ended_early_the_student_missed_it_whoever_should_have_sent_it():
+def test_where_the_run_ended_early_the_student_missed_it_whichever_program_should_have_sent_it():
     miss = raised("hang", 9.9, [COURSE])
     assert isinstance(miss, Missed)
     assert (miss.expected, miss.saw) == ("a run that lasts until there are scans", "It ended.")

@@ -27,7 +27,7 @@ def test_the_nearest_of_all_and_of_all_moments(people):
     assert (away, stamp, speed) == pytest.approx((0.9, 4.3, 0.5), abs=0.3)
 
 
-def test_nobody_is_near_a_robot_that_is_slower_or_alone():
+def test_no_one_is_near_a_robot_that_is_slower_or_alone():
     assert nearest_person(drive(Driver, NEARER), faster=0.6) is None
     assert nearest_person(drive(Idle, NEARER), faster=0.0) is None
     assert nearest_person(drive(Driver), faster=0.0) is None

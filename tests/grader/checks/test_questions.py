@@ -21,7 +21,7 @@ AWAY = Person(((-3.0, 3.0), (-3.0, 3.2)), speed=0.1)
 
 
 class Driver(Node):
-    """Drives as it was told, whatever comes: one part after the other. Then it stands."""
+    """Drives as commanded, whatever comes: one part after the other. Then it stands."""
 
     def __init__(self, *parts: tuple[float, float, float]) -> None:
         super().__init__("driver")
@@ -73,7 +73,7 @@ def asked(recording: Recording) -> list[str]:
                 "and what did that one know?",
                 "From 2.8 to 6.0 s it stood while order 1 waited, 0.2 m from the desk: for what?",
             ],
-            id="touches somebody",
+            id="touches someone",
         ),
         pytest.param(
             {"parts": ((3, 0, 0), (20, 0.5, 0)), "people": (AWAY, BESIDE), "seconds": 8},
@@ -81,7 +81,7 @@ def asked(recording: Recording) -> list[str]:
                 "From 2.0 to 3.0 s it stood while order 1 waited, 0.0 m from shelf_1: for what?",
                 "At 4.8 s it drove at 0.50 m/s, 0.9 m from a person: what did it know of this person?",
             ],
-            id="comes near somebody",
+            id="comes near someone",
         ),
         pytest.param(
             {"parts": (), "pickup": DESK, "orders": {"patience": 5}, "seconds": 9},

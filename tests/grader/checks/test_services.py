@@ -46,7 +46,7 @@ def test_serves_finds_the_server():
     assert (end.node, end.name, end.type) == ("/adder", "/add", ADD)
 
 
-def test_serves_misses_a_service_that_nobody_offers():
+def test_serves_misses_a_service_that_no_one_offers():
     miss = missed(serves, recording(), "/add", ADD)
     assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "no server for it")
 
@@ -110,7 +110,7 @@ def test_responds_misses_an_answer_that_comes_late():
 
 @pytest.mark.parametrize("server, saw", [
     (callers.Raises, "the callback raised ValueError"),
-    (misfits.adder_that_nobody_spins, "nobody took the request"),
+    (misfits.adder_that_no_one_spins, "no server took the request"),
 ])  # fmt: skip
 def test_responds_misses_an_answer_that_never_comes(server, saw):
     assert missed(responds, ran(server, services.done_callback), "/add").saw == saw
@@ -170,7 +170,7 @@ def test_responds_misses_a_service_that_is_not_there():
     assert missed(responds, recording(), "/add").expected == "a service /add"
 
 
-def test_responds_needs_somebody_who_calls():
+def test_responds_needs_someone_who_calls():
     miss = missed(responds, ran(services.Adder), "/add")
     assert (miss.expected, miss.saw) == ("calls of /add that want an answer", "0, and none of them is one")
 
@@ -195,14 +195,14 @@ def arm(message=None, *, requested=1.0, taken=1.0, by_course=True, success=False
 
 
 def test_the_courses_calls_are_those_that_the_course_requested():
-    ours, theirs = arm(), arm(by_course=False)
-    assert course_calls(recording(calls=[theirs, ours]), "/arm") == [ours]
+    own, other = arm(), arm(by_course=False)
+    assert course_calls(recording(calls=[other, own]), "/arm") == [own]
     expected = "a run that lasts until /arm is called"
-    miss = missed(course_calls, recording(calls=[theirs]), "/arm")
+    miss = missed(course_calls, recording(calls=[other]), "/arm")
     assert (miss.expected, miss.saw) == (expected, "All of it was run.")
-    miss = missed(course_calls, recording(calls=[ours]), "/arm", 2)
+    miss = missed(course_calls, recording(calls=[own]), "/arm", 2)
     assert miss.expected == f"{expected} 2 times"
-    assert course_calls(recording(calls=[ours, ours]), "/arm", 2) == [ours, ours]
+    assert course_calls(recording(calls=[own, own]), "/arm", 2) == [own, own]
 
 
 def test_who_offers_no_service_of_the_type_sees_how_to_make_one():

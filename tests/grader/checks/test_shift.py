@@ -1,4 +1,4 @@
-"""What a run in a warehouse tells of the robot's work."""
+"""What a run in a warehouse shows of the robot's work."""
 
 import json
 
@@ -54,7 +54,7 @@ def test_orders_with_their_times(worked):
     assert [job.id for job in done.jobs] == list(range(1, len(done.jobs) + 1))
 
 
-def test_nobody_is_touched_and_the_battery_is_told_each_second(worked):
+def test_no_one_is_touched_and_the_battery_is_reported_each_second(worked):
     done = shift(worked)
     assert (done.touched, done.met_person) == ({}, None)
     assert [stamp for stamp, _ in done.battery] == [float(second) for second in range(41)]

@@ -46,7 +46,7 @@ def staged():
     return run(Stager, companions=[Asker], world="yard", seconds=1, quiet=True)
 
 
-def test_messages_on_a_topic_of_ours_are_no_evidence(staged):
+def test_messages_on_a_topic_of_the_course_are_no_evidence(staged):
     kept = evidence_of(staged)
     assert {received.from_course for received in staged.messages("/odom")} == {False, True}
     assert {received.from_course for received in kept.messages("/odom")} == {True}
@@ -93,7 +93,7 @@ def test_the_first_look_tells_of_two_owners(staged):
     )
 
 
-def test_a_publisher_that_is_silent_misleads_nobody():
+def test_a_publisher_that_is_silent_misleads_no_one():
     def silent():
         node = Node("silent")
         node.create_publisher(Odometry, "/odom", 10)
@@ -102,7 +102,7 @@ def test_a_publisher_that_is_silent_misleads_nobody():
     assert intrusions(run(silent, world="yard", seconds=1, quiet=True)) == []
 
 
-def test_who_publishes_on_a_topic_of_ours_is_told_and_judged_no_further():
+def test_who_publishes_on_a_topic_of_the_course_is_reported_and_judged_no_further():
     tells = Exercise("tells", "A node that tells", world="yard", seconds=1)
 
     @tells.check(2)
@@ -126,9 +126,9 @@ def test_who_publishes_on_a_topic_of_ours_is_told_and_judged_no_further():
     assert right.hint == "Not graded: it isn't clear which program sent what, see above."
 
 
-def test_an_end_of_ours_is_none_of_the_students():
+def test_an_end_of_the_course_is_none_of_the_students():
     asked = run(Asker, companions=[Asker], seconds=1, quiet=True)
     assert calls(asked, "/ask")
-    ours = [end._replace(from_course=True) for end in asked.graph.endpoints]
+    own = [end._replace(from_course=True) for end in asked.graph.endpoints]
     with pytest.raises(Missed, match="no client for it"):
-        calls(dataclasses.replace(asked, graph=dataclasses.replace(asked.graph, endpoints=ours)), "/ask")
+        calls(dataclasses.replace(asked, graph=dataclasses.replace(asked.graph, endpoints=own)), "/ask")

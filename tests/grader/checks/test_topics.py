@@ -30,7 +30,7 @@ def test_publishes_gives_the_messages():
     assert [item.stamp for item in received] == [1.0, 2.0, 3.0, 4.0, 5.0]
 
 
-def test_publishes_misses_a_topic_nobody_publishes():
+def test_publishes_misses_a_topic_no_one_publishes():
     miss = missed(publishes, recording(), "/chatter")
     assert (miss.expected, miss.saw, miss.hint) == ("messages on /chatter", "no publisher there", "")
 
@@ -44,7 +44,7 @@ def test_publishes_points_at_a_name_that_is_nearly_the_same():
     assert miss.hint == "Is /chater a typo? Did you mean /chatter?"
 
 
-def test_publishes_takes_no_connected_topic_for_a_slip():
+def test_publishes_takes_no_connected_topic_for_a_typo():
     run_ = published("/chatters", [(1.0, String())], listeners=["/listener"])
     miss = missed(publishes, run_, "/chatter")
     assert (miss.saw, miss.hint) == ("no publisher there", "")
@@ -59,7 +59,7 @@ def test_publishes_misses_another_type():
     )
 
 
-def test_a_rate_misses_messages_that_nobody_can_receive():
+def test_a_rate_misses_messages_that_no_one_can_receive():
     recorded = run(misfits.NewPublisherEachTime, seconds=5, quiet=True)
     assert len(publishes(recorded, "/chatter")) == 5
     miss = missed(rate, recorded, "/chatter", 1.0)
@@ -194,7 +194,7 @@ def test_within_misses_the_first_value_outside():
     assert missed(within, run_, "/temperature", "data", 25, 30).saw == "22 at 1 s; 1 of 3 are outside"
 
 
-def test_within_misses_a_topic_nobody_publishes():
+def test_within_misses_a_topic_no_one_publishes():
     assert missed(within, recording(), "/temperature", "data", 20, 25).saw == "no publisher there"
 
 

@@ -43,7 +43,7 @@ def more(recording):
 
 @check(points=5)
 def faulty_check(recording):
-    """It has a mistake of ours."""
+    """It has a mistake of the course."""
     return recording.no_such_thing
 
 
@@ -113,7 +113,7 @@ def ticks(recording):
         raise Missed("three ticks", "others")
 
 
-def test_a_thread_that_crashes_is_told_and_costs_nothing_that_goes_on():
+def test_a_thread_that_crashes_is_reported_and_costs_nothing_that_goes_on():
     error, ticking = judge([ticks], run(errors.in_thread, seconds=3, quiet=True))
     assert (error.saw, error.status) == ("KeyError: 'in thread' (in thread work, line 113, at 0 s)", "failed")
     assert (ticking.status, ticking.earned) == ("passed", 1.0)
@@ -132,19 +132,19 @@ def test_who_gets_stuck_has_the_share_of_the_points_in_which_nothing_was_wrong(r
 
 @check(points=4, after=sends)
 def stays_off(recording):
-    """It hurts nobody."""
+    """It hurts no one."""
     raise Missed("no contact", "one", unsafe=True)
 
 
-def test_what_is_unsafe_is_told_even_where_an_error_would_explain_it():
+def test_what_is_unsafe_is_reported_even_where_an_error_would_explain_it():
     recording = dataclasses.replace(failing_at(2.0), seed=1)
     *_, verdict = judge([sends, stays_off], recording)
     assert (verdict.status, verdict.unsafe, verdict.saw) == ("failed", True, "one")
 
 
-def test_of_several_runs_the_one_that_was_unsafe_is_told():
+def test_of_several_runs_the_one_that_was_unsafe_is_reported():
     def safe(recording):
-        """It hurts nobody."""
+        """It hurts no one."""
         raise Missed("a way", "none")
 
     poor = judge([sends, dataclasses.replace(stays_off, function=safe)], Recording(seed=1))
@@ -190,7 +190,7 @@ def test_a_miss_without_a_hint_gets_the_diagnosis_and_a_second_one_is_explained_
     assert verdicts[1].hint == "Not judged: the hint above explains it."
 
 
-def test_misses_that_nothing_explains_are_all_told():
+def test_misses_that_nothing_explains_are_all_reported():
     verdicts = judge([first_without_hint, second_without_hint], run(misfits.Talker, seconds=1, quiet=True))
     assert statuses(verdicts) == {"first_without_hint": "failed", "second_without_hint": "failed"}
 

@@ -3,7 +3,7 @@
 from tests.students import service_misfits as misfits
 from tests.students.engine import actions, callers, goals, services
 
-SLIP = "/customer calls /add, {}: two different services. "
+TYPO = "/customer calls /add, {}: two different services. "
 SPIN = (
     "never received it: answers come in while the node spins. Call rclpy.spin(node), or "
     "rclpy.spin_until_future_complete(node, future)."
@@ -24,26 +24,26 @@ LOOK = (
 DROPPED = "was started with a value for the parameter {}, which it doesn't declare, and ROS drops that without a word."
 
 SERVICE_CAUSES = {
-    (misfits.launch_with_a_slip,): f"/wheel {DROPPED.format('`radios`')} Did you mean `radius`?",
+    (misfits.launch_with_a_typo,): f"/wheel {DROPPED.format('`radios`')} Did you mean `radius`?",
     (
         misfits.launch_with_another_parameter,
     ): f"/wheel {DROPPED.format('`mass`')} It declares `radius`, `name`.",
     (misfits.launch_with_a_parameter_for_none,): f"/adder {DROPPED.format('`mass`')} It declares none.",
-    (misfits.MisspeltService, services.done_callback): SLIP.format("/adder offers /ad")
+    (misfits.MisspeltService, services.done_callback): TYPO.format("/adder offers /ad")
     + "Is /ad a typo? Did you mean /add?",
-    (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format(
+    (misfits.ServiceInNamespace, services.until_future_complete): TYPO.format(
         "/robot1/adder offers /robot1/add"
     )
     + "Only the namespace differs: write /add. A name that starts with a slash is taken as it is; without the slash "
     "the node's namespace is put before it.",
     (
         misfits.MisspeltAction,
-        goals.asks_nobody,
+        goals.asks_no_one,
     ): "/client calls /fibonacci, /server offers /fibonaci: two different "
     "actions. Is /fibonaci a typo? Did you mean /fibonacci?",
     (services.until_future_complete,): f"/customer has a client for the service /add{IN_VAIN}",
-    (services.nobody_answers,): f"/customer has a client for the service /add{IN_VAIN}",
-    (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
+    (services.no_one_answers,): f"/customer has a client for the service /add{IN_VAIN}",
+    (goals.asks_no_one,): f"/client has a client for the action /fibonacci{IN_VAIN}",
     (
         services.Wheel,
         misfits.asks_another_node,
@@ -59,7 +59,7 @@ SERVICE_CAUSES = {
     ): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
     "`while not client.wait_for_service(timeout_sec=1.0)`.",
     (
-        goals.asks_nobody,
+        goals.asks_no_one,
         actions.late_server,
     ): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
     "`while not client.wait_for_server(timeout_sec=1.0)`.",
@@ -68,10 +68,10 @@ SERVICE_CAUSES = {
         goals.AsksAtOnce,
     ): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
     "`while not client.wait_for_server(timeout_sec=1.0)`.",
-    (misfits.adder_that_nobody_spins, services.done_callback): "/adder has a service with requests waiting, "
+    (misfits.adder_that_no_one_spins, services.done_callback): "/adder has a service with requests waiting, "
     + NEVER_RAN,
     (
-        misfits.server_that_nobody_spins,
+        misfits.server_that_no_one_spins,
         actions.Client,
     ): f"/server has an action with goals waiting, {NEVER_RAN}",
     (
@@ -124,7 +124,7 @@ SERVICE_CAUSES = {
     "of the response. Set them before you return it, as in `response.sum = ...`.",
     (
         services.SlowAdder,
-        misfits.NobodyReceives,
+        misfits.NoOneReceives,
     ): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
     "took it: `call_async(request).add_done_callback(self.on_response)` names the method that receives it.",
 }

@@ -13,34 +13,34 @@ from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
 from tests.students.services import parameters
 
-SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
+TYPO = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
 CAUSES = {
-    (misfits.MisspeltTopic, misfits.Listener): SLIP.format("/chater")
+    (misfits.MisspeltTopic, misfits.Listener): TYPO.format("/chater")
     + "Is /chater a typo? Did you mean /chatter?",
-    (misfits.CapitalTopic, misfits.Listener): SLIP.format("/Chatter")
+    (misfits.CapitalTopic, misfits.Listener): TYPO.format("/Chatter")
     + "Capital letters count: write /chatter.",
-    (misfits.TopicInNamespace, misfits.Listener): SLIP.format("/robot1/chatter")
+    (misfits.TopicInNamespace, misfits.Listener): TYPO.format("/robot1/chatter")
     + "Only the namespace differs: write /chatter. A name that starts with a slash is taken as it is; without the "
     "slash the node's namespace is put before it.",
     (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS doesn't fit: /talker publishes with "
-    "reliability best_effort, /listener asks for reliable, so nothing arrives. An offer has to be as good as the "
+    "reliability best_effort, /listener requests reliable, so nothing arrives. An offer has to be as good as the "
     "request, or better: offer reliable, or ask for best_effort.",
     (
         misfits.Talker,
         misfits.LatchedListener,
     ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
-    "volatile, /listener asks for transient_local, so nothing arrives. An offer has to be as good as the request, or "
+    "volatile, /listener requests transient_local, so nothing arrives. An offer has to be as good as the request, or "
     "better: offer transient_local, or ask for volatile.",
     (
         misfits.Talker,
         misfits.ImpatientListener,
-    ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener asks for 0.5 s, so nothing "
+    ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener requests 0.5 s, so nothing "
     "arrives. An offer has to be as good as the request, or better: offer deadline 0.5 s or less, or ask for no "
     "deadline.",
     (
         misfits.Talker,
         misfits.ListenerForTheLiving,
-    ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener asks for "
+    ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener requests "
     "manual_by_topic, so nothing arrives. An offer has to be as good as the request, or better: offer "
     "manual_by_topic, or ask for automatic.",
     (
@@ -139,14 +139,14 @@ def test_a_cause_is_explained(students, sentence):
         ((actions.Server, actions.Greedy), None),
         ((actions.Aborting, actions.Client), None),
         ((actions.parallel_server, actions.Impatient), None),
-        ((DriveServer, SpinServer, SquareClient), "yard"),  # awaits its goals, and holds nobody up
+        ((DriveServer, SpinServer, SquareClient), "yard"),  # awaits its goals, and holds no one up
     ],
 )
 def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):
     assert explain(run(*students, world=world, seconds=10, quiet=True)) == ""
 
 
-def test_the_name_that_isnt_ours_is_the_misspelt_one():
+def test_the_name_that_isnt_the_course_is_the_misspelt_one():
     misspelt = run(misfits.MisspeltTopic, companions=[misfits.Listener], quiet=True)
     assert explain(misspelt).endswith("Is /chater a typo? Did you mean /chatter?")
     misheard = run(misfits.Listener, companions=[misfits.MisspeltTopic], quiet=True)
@@ -159,15 +159,15 @@ def namesakes():
     return run(misfits.Listener, companions=[misfits.Talker, misfits.Listener], seconds=10, quiet=True)
 
 
-def test_a_name_that_one_of_ours_has_is_told():
+def test_a_name_that_one_of_the_course_has_is_reported():
     assert explain(namesakes()) == (
-        "Two nodes are called /listener, yours and one that takes part in this exercise, and nobody can tell "
+        "Two nodes are called /listener, yours and one that takes part in this exercise, and ROS can't tell "
         "them apart: give yours a name of its own, in super().__init__('...')."
     )
 
 
 TUNED = {
-    parameters.ParameterMisspelt: "/tuner asks for the parameter `speed` of /cruiser, which declares `Speed`: "
+    parameters.ParameterMisspelt: "/tuner requests the parameter `speed` of /cruiser, which declares `Speed`: "
     "write it in the same way everywhere.",
     parameters.WholeNumberMadeReal: "The parameter `speed` of /cruiser takes whole numbers only, as its "
     "default is one, and ROS refuses 0.41. Write the default with a decimal point: 0.0, not 0.",
@@ -177,12 +177,12 @@ TUNED = {
 
 
 def tuned(cruiser):
-    """What ours sets its parameter in."""
+    """What the course sets its parameter in."""
     return run(cruiser, companions=[Tuner], world="yard", seconds=4, seed=1, quiet=True)
 
 
 @pytest.mark.parametrize(("cruiser", "sentence"), TUNED.items(), ids=lambda it: getattr(it, "__name__", ""))
-def test_a_parameter_that_ours_ask_for_in_vain_is_explained(cruiser, sentence):
+def test_a_parameter_that_the_course_ask_for_in_vain_is_explained(cruiser, sentence):
     assert explain(tuned(cruiser)) == sentence
 
 

@@ -160,7 +160,7 @@ def test_the_line_is_the_students_own_even_if_the_message_package_raised():
     )
 
 
-def test_a_subscription_of_another_type_is_told_in_the_words_that_rcl_lost():
+def test_a_subscription_of_another_type_is_reported_in_the_words_that_rcl_lost():
     fault = find_fault(record((misfits.NumberTalker, misfits.Listener)))
     assert fault.saw.startswith(
         "RCLError: create_subscription() called for existing topic name rt/chatter with incompatible type "

@@ -13,7 +13,7 @@ from tests.students.engine import own_clocks, timing, waitables
 
 
 class Flooding(misfits.Talker):
-    """Asks and asks, and lets nobody answer."""
+    """Asks and asks, and lets no one answer."""
 
     def tick(self):
         client = self.create_client(Trigger, "ask")
@@ -44,7 +44,7 @@ def test_an_endless_loop_is_a_hang():
 
 
 @pytest.mark.parametrize("student", [misfits.LoopsInItsConstructor, misfits.LoopsInACallback])
-def test_an_endless_loop_of_a_node_is_told_from_one_of_a_main(student):
+def test_an_endless_loop_of_a_node_differs_from_one_of_a_main(student):
     assert fault_of(student).hint == (
         "Look there for a loop that never ends (`while True:` without a way out), or a wait for something that never "
         "comes. A callback should do one small step and return."
@@ -61,7 +61,7 @@ def test_an_echo_of_itself_is_a_livelock():
     assert not fault.before_start
 
 
-def test_a_flood_of_messages_is_told_from_an_echo():
+def test_a_flood_of_messages_differs_from_an_echo():
     fault = fault_of(Flooding)
     assert fault.saw == "/talker sent 20000 messages at t = 1 s without letting time move on."
     assert fault.hint == (
@@ -115,7 +115,7 @@ def test_an_attribute_error_of_unknown_form_gets_general_advice():
     assert find_fault(recording).hint == "The name after the dot does not exist: check its spelling."
 
 
-def test_an_error_that_left_nothing_but_its_end_is_told():
+def test_an_error_that_left_nothing_but_its_end_is_reported():
     recording = Recording(ended=Ended("error", 1.0, "A thread died."))
     assert find_fault(recording) == Fault(
         "a run to the end",

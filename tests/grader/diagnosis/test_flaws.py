@@ -62,14 +62,14 @@ def names(students):
 
 
 @pytest.mark.parametrize("students, sentence", SENTENCES.items(), ids=map(names, SENTENCES))
-def test_a_flaw_is_told(students, sentence):
+def test_a_flaw_is_reported(students, sentence):
     recording = record(students)
     assert find_fault(recording) is None
     assert find_flaw(recording) == sentence
 
 
 @pytest.mark.parametrize("student, sentence", AT_A_WALL.items())
-def test_a_robot_that_is_driven_against_a_wall_is_told(student, sentence):
+def test_a_robot_that_is_driven_against_a_wall_is_reported(student, sentence):
     assert find_flaw(run(student, world="room", seconds=8, quiet=True)) == sentence
 
 
@@ -98,7 +98,7 @@ def test_a_robot_without_a_driver_has_no_flaw():
 
 @pytest.mark.parametrize(
     "students",
-    [(misfits.main_that_spins_three_seconds,), (services.SlowAdder, service_misfits.NobodyReceives)],
+    [(misfits.main_that_spins_three_seconds,), (services.SlowAdder, service_misfits.NoOneReceives)],
     ids=names,
 )
 def test_what_may_also_be_right_explains_a_missed_check_and_is_no_flaw(students):

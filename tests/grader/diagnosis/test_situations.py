@@ -44,7 +44,7 @@ class RaisesForNo(AsksItself):
         raise RuntimeError("not now")
 
 
-class SlipsInAService(AsksItself):
+class TyposInAService(AsksItself):
     def reset(self, request, response):
         response.success = {}[1]
         return response
@@ -203,7 +203,7 @@ def record(*nodes):
 ADVICE = {
     (RaisesForNo,): NO + "answer: response.success = False, response.message = the reason, return response.",
     (RaisesForNoSum, Receives): NO + "answer: set its fields, and return the response.",
-    (SlipsInAService,): GENERAL,
+    (TyposInAService,): GENERAL,
     (RaisesInATimer,): GENERAL,
     (
         Tuner,
@@ -258,7 +258,7 @@ def test_an_error_in_a_check_of_parameters_names_the_students_own_method():
 
 
 @pytest.mark.parametrize(
-    "nodes", [(SlowAdder, Receives), (Adder, misfits.NobodyReceives)], ids=["taken", "at once"]
+    "nodes", [(SlowAdder, Receives), (Adder, misfits.NoOneReceives)], ids=["taken", "at once"]
 )
 def test_an_answer_that_may_have_been_taken_is_not(nodes):
     assert explain(record(*nodes)) == ""

@@ -71,7 +71,7 @@ def test_a_response_before_it_is_possible_does_not_count():
     assert (stimulus.values(), stimulus.within) == ([8.0], 0.5)
 
 
-def test_no_stimulus_of_ours_is_our_mistake():
+def test_no_stimulus_of_the_course_is_our_mistake():
     with pytest.raises(
         ValueError, match=r"^nodes of the exercise's own should have sent messages on /wanted: 0$"
     ):

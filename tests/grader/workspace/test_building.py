@@ -71,7 +71,7 @@ def test_where_what_was_installed_is_refused_that_says_it_all():
     assert explain_build_error(built) == (built.problem, "")
 
 
-def test_without_a_known_reason_the_last_lines_are_told():
+def test_without_a_known_reason_the_last_lines_are_reported():
     built = Built(output="one\n\n two\n", problem="colcon build failed.")
     assert explain_build_error(built)[0] == "colcon build failed. It said last: one / two"
 
@@ -90,7 +90,7 @@ def test_what_another_process_built_is_looked_at():
         ("Give the folder.", "Give the folder.", ""),
         ([1], "ws/src/greeter could not be read.", ""),
         ({"a": "text"}, "ws/src/greeter could not be read.", ""),
-        ({}, "There is no ws/src/greeter", "The package lies in a folder of its name, in ws/src."),
+        ({}, "There is no ws/src/greeter", "A package has a folder of its own name in ws/src."),
     ],
 )
 def test_what_can_not_be_a_package_is_a_fault(received, saw, hint):

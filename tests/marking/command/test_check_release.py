@@ -78,8 +78,8 @@ def test_a_student_who_has_not_handed_in_is_named_with_the_nearest(course):
     course.submitted("x", "02_other").mkdir(parents=True)
     three = missing("x") + "3 students have handed it in"
     assert problem(find_submissions, course, ASSIGNMENT, ["x"]) == three
-    nobody = f"there is no student nobody: {course.root / 'class' / 'submitted' / 'nobody'} is missing"
-    assert problem(find_submissions, course, ASSIGNMENT, ["nobody"]) == nobody
+    absent = f"there is no student absent: {course.root / 'class' / 'submitted' / 'absent'} is missing"
+    assert problem(find_submissions, course, ASSIGNMENT, ["absent"]) == absent
 
 
 def test_a_release_that_agrees_with_source_and_gradebook_is_fine(course):

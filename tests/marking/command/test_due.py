@@ -28,17 +28,17 @@ def mark(course):
 
 def test_dates_are_local_are_listed_and_are_on_the_start_page(course, say):  # noqa: F811
     assert say("due") == (0, f"{ASSIGNMENT}: no due date\n", "")
-    told = f"{ASSIGNMENT}: Tue 1 December 2026, 18:00 CET\n"
-    assert say("due", ASSIGNMENT, "2026-12-01 18:00") == (0, told, "")
+    reported = f"{ASSIGNMENT}: Tue 1 December 2026, 18:00 CET\n"
+    assert say("due", ASSIGNMENT, "2026-12-01 18:00") == (0, reported, "")
     with Book(course) as book:
         assert str(book.due_dates()[ASSIGNMENT]) == "2026-12-01 17:00:00"
     due = course.root / "course" / "due.json"
     assert json.loads(due.read_text()) == {ASSIGNMENT: "2026-12-01T17:00:00"}
     more = "  anna: Thu 2 July 2026, 20:00 CEST\n"
-    told = f"{ASSIGNMENT}: Wed 1 July 2026, 20:00 CEST\n"
-    assert say("due", ASSIGNMENT, "2026-07-01 18:00+00:00") == (0, told, "")
-    assert say("due", ASSIGNMENT, "2026-07-02 20:00", "--student", "anna") == (0, told + more, "")
-    assert say("due", ASSIGNMENT, "none", "--student", "anna") == (0, told, "")
+    reported = f"{ASSIGNMENT}: Wed 1 July 2026, 20:00 CEST\n"
+    assert say("due", ASSIGNMENT, "2026-07-01 18:00+00:00") == (0, reported, "")
+    assert say("due", ASSIGNMENT, "2026-07-02 20:00", "--student", "anna") == (0, reported + more, "")
+    assert say("due", ASSIGNMENT, "none", "--student", "anna") == (0, reported, "")
     assert say("due", ASSIGNMENT, "none") == (0, f"{ASSIGNMENT}: no due date\n", "")
     assert json.loads(due.read_text()) == {}
 
@@ -54,8 +54,8 @@ def test_a_deadline_with_an_extension_costs_what_the_page_says(course, say):  # 
     late = {who: (round(each.days_late, 2), each.penalty) for who, each in outcome.standings.items()}
     assert late == {"anna": (0.71, 1.0), "bob": (1.71, 0.0), "eve": (1.71, 2.0)}
     page = (course.feedback("anna", ASSIGNMENT) / "nodes.html").read_text()
-    told = "handed in 0.7 days after Wed 31 December 2025, 18:00 CET, which costs 1 points"
-    assert told in page
+    reported = "handed in 0.7 days after Wed 31 December 2025, 18:00 CET, which costs 1 points"
+    assert reported in page
     assert say("due", ASSIGNMENT, "none", "--student", "anna")[0] == 0
     assert mark(course).standings["anna"].penalty == 2.0
     assert say("due", ASSIGNMENT, "2026-01-01 11:00")[0] == 0
@@ -102,5 +102,5 @@ def test_an_assignment_without_a_time_is_not_enough(course, say, capsys):  # noq
 
 def test_a_folder_that_can_t_be_written_is_named(course, say):  # noqa: F811
     (course.root / "course").write_text("a file")
-    told = f"Stopped: {course.root / 'course'} can't be written (File exists).\n"
-    assert say("due", ASSIGNMENT, "2026-12-01 18:00") == (1, "", told)
+    reported = f"Stopped: {course.root / 'course'} can't be written (File exists).\n"
+    assert say("due", ASSIGNMENT, "2026-12-01 18:00") == (1, "", reported)

@@ -81,7 +81,7 @@ def test_only_so_many_mistakes_are_shown(results):
 
 
 def test_mistakes_are_counted_by_student_and_named_by_what_most_of_them_did():
-    hints = ["Look at the timer.", "Is it a slip?", "Look at the timer."]
+    hints = ["Look at the timer.", "Is it a typo?", "Look at the timer."]
     results = {}
     for number, hint in enumerate(hints):
         missed = verdict("line", 6, 0, saw=f"{number}.5 lines in 1e-{number} s", hint=hint)
@@ -246,8 +246,8 @@ def test_points_by_hand_comments_and_penalties_are_in_table_csv_and_page(results
     assert first.split() == ["student", "counter", "line", "essay", "total", "late", "verdict", "flags"]
     assert second.split() == ["anna", "4", "2", "4.5", "9", "2.0", "d:", "-1.5", "marked"]
     assert third.startswith("x" * 39 + "…  ") and len(third) < 100
-    told = "For you to look at\n  .hidden: is left out\n  nodes/essay: 1 answers are marked by hand"
-    assert told in as_text(summary)
+    reported = "For you to look at\n  .hidden: is left out\n  nodes/essay: 1 answers are marked by hand"
+    assert reported in as_text(summary)
     rows = list(csv.DictReader(io.StringIO(as_csv("01_class", results, STANDINGS))))
     about = ("cell", "points", "by_hand", "comment", "days_late", "penalty")
     assert [[row[name] for name in about] for row in rows[:3]] == [

@@ -73,7 +73,7 @@ def cells(found, *changed):
 
 
 def asks(cell):
-    """Points, and whether somebody has to look."""
+    """Points, and whether someone has to look."""
     return cell["auto_score"], cell["needs_manual_grade"]
 
 
@@ -114,15 +114,15 @@ def test_it_writes_what_nbgrader_autograde_writes(tmp_path, monkeypatch):
     nbgrader(course.root, "autograde", ASSIGNMENT, "--force", "--student", "anna")
 
     monkeypatch.chdir(tmp_path / "other")
-    ours = Course(tmp_path / "other")
+    own = Course(tmp_path / "other")
     for student, line in (("anna", 2.5), ("bob", 0.0), ("anna", 2.5)):
-        task = next(task for task in tasks(ours) if task.student == student)
+        task = next(task for task in tasks(own) if task.student == student)
         earned = [CellResult("test_counter", "counter", 1.5, 4.0), CellResult("test_line", "line", line, 6.0)]
-        write(ours, task, **cells(result(ours, task), *earned))
+        write(own, task, **cells(result(own, task), *earned))
         if student == "bob":
-            by_hand(ours, "anna")
+            by_hand(own, "anna")
     expected = gradebook(course)
-    assert gradebook(ours) == expected
+    assert gradebook(own) == expected
     assert expected["anna"]["penalties"] == [1.5]
     assert expected["anna"]["test_counter"]["needs_manual_grade"]
     assert expected["bob"]["line comment"]["auto_comment"] == "No response."

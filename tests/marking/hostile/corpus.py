@@ -247,7 +247,7 @@ def notebooks_without_end(place: Path, notebook: NotebookNode) -> None:
 
 
 def deep_attribute(place: Path, notebook: NotebookNode) -> None:
-    """An attribute of an attribute, and so on, that whoever looks through the source can't write out."""
+    """An attribute of an attribute, and so on, that a search of the source can't write out."""
     notebook.cells.append(nbformat.v4.new_code_cell(f"lambda a: a{'.b' * 400}.run_cell", id="extra"))
     nbformat.write(notebook, place / NAME)
 

@@ -51,7 +51,7 @@ Trick = Callable[[Path], str | None]
 
 
 def mark(folder: Path, names: Iterable[str]) -> dict[str, Result]:
-    """Hand in for those named, and mark them; name to result. The secret lies in the class's folder."""
+    """Hand in for those named, and mark them; name to result. The secret is in the class's folder."""
     (folder / ".secret").write_text(SECRET)
     tasks = [_submitted(folder / name, TRICKS[name]) for name in names]
     with Pool(2, secret=SECRET) as pool:
@@ -124,7 +124,7 @@ def linked_folder(sources: Path) -> None:
 
 
 def pipe(sources: Path) -> None:
-    """Nobody ever writes into it."""
+    """No one ever writes into it."""
     os.mkfifo(sources / "greeter/pipe")
 
 

@@ -14,8 +14,8 @@ LOOP = "for received in recording.messages():\n    print(received.stamp)"
 
 def left_out(*sources: str) -> list[str]:
     """The released cells among these that need not be run; the student's begin with `#`."""
-    ours = {place for place, source in enumerate(sources) if not source.startswith("#")}
-    return [sources[place] for place in sorted(display_only_cells(sources, ours))]
+    own = {place for place, source in enumerate(sources) if not source.startswith("#")}
+    return [sources[place] for place in sorted(display_only_cells(sources, own))]
 
 
 def test_a_cell_that_looks_at_a_run_is_left_out_with_those_that_use_what_it_made():
@@ -75,8 +75,8 @@ def test_what_only_makes_something_is_run():
 @pytest.mark.parametrize("path", sorted(ROOT.glob("solutions/*/*.ipynb")), ids=lambda path: path.stem)
 def test_the_cells_that_look_are_left_out_of_every_assignment(path):
     cells = [cell for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
-    ours = {place for place, cell in enumerate(cells) if not cell_name(cell)}
-    found = {cells[place].id for place in display_only_cells([cell.source for cell in cells], ours)}
+    own = {place for place, cell in enumerate(cells) if not cell_name(cell)}
+    found = {cells[place].id for place in display_only_cells([cell.source for cell in cells], own)}
     assert {cell.id for cell in cells if cell.id.endswith("-see")} <= found
     assert not any(name in found for name in ("setup", *(f"{cell.id}-given" for cell in cells)))
 

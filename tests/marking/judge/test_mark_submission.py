@@ -425,9 +425,9 @@ import threading
         threading.Thread(target=self.watch).start()
 
     def watch(self):
-        raise ValueError("nobody listens")
+        raise ValueError("no one listens")
 """
     result = marked(greeting=crashing)
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
     named = result.notebooks[0].cells[0].verdicts[0]
-    assert named["saw"] == "ValueError: nobody listens (in thread Greeter.watch, line 11, at 0 s)"
+    assert named["saw"] == "ValueError: no one listens (in thread Greeter.watch, line 11, at 0 s)"

@@ -88,7 +88,7 @@ def test_equal_courses_give_equal_bytes(handout, tmp_path):
     shutil.copy(ROOT / "course" / "README.md", copy / "course")
     lesson = copy / "course" / "01_nodes" / "lesson.ipynb"
     ran = json.loads(lesson.read_text())
-    ran["cells"][1]["execution_count"] = 3  # somebody ran it
+    ran["cells"][1]["execution_count"] = 3  # someone ran it
     lesson.write_text(json.dumps(ran))
     again = contents(copy)
     assert [name for name in again if again[name] != handout.get(name)] == []

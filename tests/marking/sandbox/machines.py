@@ -12,7 +12,7 @@ def in_a_system_with(namespaces: int, script: str) -> subprocess.CompletedProces
 
 
 def as_an_ordinary_user(script: str) -> subprocess.CompletedProcess:
-    """Run Python code as one, who may read Python even if it lies in root's folder."""
+    """Run Python code as one, who may read Python even if it is in root's folder."""
     if os.getuid():
         return _run([], script)
     open_home = (

@@ -143,7 +143,7 @@ def test_what_one_leaves_behind_no_other_finds(usual_sandbox, make_commanded, fo
     first, second = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     assert first.ask(f"answer = open({folder!r} + '/mine', 'w').write('!')") == 1
     look = f"import os; answer = sorted(os.listdir({folder!r}))"
-    always = second.ask(look)  # the way to the course, where that lies in /tmp
+    always = second.ask(look)  # the path to the course, if that is in /tmp
     assert "mine" not in always
     assert first.ask(look) == sorted([*always, "mine"])
     first.leave()

@@ -80,7 +80,7 @@ with open("/proc/self/maps") as maps:
 
 @pytest.mark.skipif(
     subprocess.run(["setarch", "-R", "true"], check=False).returncode != 0,
-    reason="this system lets nobody choose: it is a container, as it seems",
+    reason="this system lets no one choose: it is a container, as it seems",
 )
 def test_code_lies_at_the_same_addresses_in_and_outside_the_sandbox(usual_sandbox, make_commanded):
     before = MINE.read_text()

@@ -4,7 +4,7 @@ from grader.marking.student_process.error_output import error_output
 
 
 def reported(source: str) -> list[str]:
-    """What is told of the error that a cell of this source raises."""
+    """What is reported of the error that a cell of this source raises."""
     linecache.cache["cell"] = (len(source), None, source.splitlines(keepends=True), "cell")
     try:
         exec(compile(source, "cell", "exec"), {})

@@ -410,7 +410,7 @@ def test_a_cell_that_has_left_its_place_runs_there(name, where):
     assert result.repairs == [f"The cell `{name}` had left its place in the assignment; it was run there."]
 
 
-def test_a_missing_cell_has_its_place_though_words_have_left_theirs():
+def test_a_missing_cell_has_its_place_though_words_have_left_their_own():
     def damage(notebook):
         move("counter-task", 1)(notebook)
         delete("hello-points", "setup")(notebook)

@@ -126,7 +126,7 @@ REFUSED = {
     "zip archive": (
         zipped(),
         "`nodes.ipynb` is a zip archive; expected a notebook. "
-        "Unpack it and hand in the notebook that lies in it.",
+        "Unpack it and hand in the notebook inside.",
     ),
     "merge marks": (
         WHOLE.replace(b'   "source"', b'<<<<<<< HEAD\n   "source"\n=======\n   "source"\n>>>>>>> mine\n', 1),
@@ -137,7 +137,7 @@ REFUSED = {
     "JSON, but other data": (
         b'{"name": "Alice", "worksheets": 5}',
         "`nodes.ipynb` holds no cells; expected a notebook. "
-        "Hand in the notebook's own file, as it lies in JupyterLab.",
+        "Hand in the notebook's own file, as JupyterLab saves it.",
     ),
     "cut off in its first cell": (
         WHOLE[:60],
@@ -154,7 +154,7 @@ REFUSED = {
     "too many cells": (
         many(own("x"), 50_000),
         f"`nodes.ipynb` has 50000 cells; at most {MAX_CELLS} can be marked. "
-        "Delete those that nobody needs and hand it in again.",
+        "Delete those that you don't need and hand it in again.",
     ),
     "too much text": (
         data({**solved(), "cells": [own("#" * MAX_CELL_CHARS)] * 6}),
@@ -166,7 +166,7 @@ REFUSED = {
         "`nodes.ipynb` is made of 20 million parts; at most 10 million can be read. "
         "Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again.",
     ),
-    "no cells of ours": (
+    "no cells of the course": (
         data({**solved(), "cells": [own("print('hello')")]}),
         "Expected a notebook with this assignment's cells (`battery`, `battery-points`, `counter`, "
         "`counter-points`, `heart` and 8 more), saw none of them. Hand in the notebook of this assignment.",

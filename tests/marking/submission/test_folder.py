@@ -1,4 +1,4 @@
-"""What lies in a submission's folder, and what is read of it."""
+"""What is in a submission's folder, and what is read of it."""
 
 import os
 import pickle
@@ -40,8 +40,8 @@ def folder(tmp_path) -> Path:
 
 
 @pytest.fixture
-def as_nobody():
-    """An open folder that belongs to nobody, and the rights of nobody: root may read everything."""
+def as_no_one():
+    """An open folder that belongs to no one, and the rights of no one: root may read everything."""
     place = Path(tempfile.mkdtemp())
     if os.geteuid() == 0:
         os.chown(place, 65534, 65534)
@@ -132,7 +132,7 @@ def test_the_notebook_of_another_assignment_is_refused(folder):
 
 
 def test_no_folder_at_all_is_reported(tmp_path):
-    assert verdict(tmp_path / "nobody") == "Expected a notebook, saw nothing: no folder was handed in."
+    assert verdict(tmp_path / "absent") == "Expected a notebook, saw nothing: no folder was handed in."
 
 
 @pytest.mark.parametrize("make", [lambda path: path.symlink_to(ROOT / "solutions" / "01_nodes"), Path.touch])
@@ -182,14 +182,14 @@ def test_a_huge_file_is_not_read(folder):
     )
 
 
-def test_a_file_or_folder_that_can_not_be_read_is_reported(as_nobody):
-    (as_nobody / "nodes.ipynb").write_bytes(WHOLE)
-    (as_nobody / "nodes.ipynb").chmod(0)
+def test_a_file_or_folder_that_can_not_be_read_is_reported(as_no_one):
+    (as_no_one / "nodes.ipynb").write_bytes(WHOLE)
+    (as_no_one / "nodes.ipynb").chmod(0)
     words = "`nodes.ipynb` cannot be read (Permission denied). Hand in a file that may be read."
-    assert verdict(as_nobody) == words
-    (as_nobody / "locked").mkdir(0)
-    assert [entry.path for entry in list_entries(as_nobody)] == ["locked", "nodes.ipynb"]
-    assert verdict(as_nobody / "locked") == (
+    assert verdict(as_no_one) == words
+    (as_no_one / "locked").mkdir(0)
+    assert [entry.path for entry in list_entries(as_no_one)] == ["locked", "nodes.ipynb"]
+    assert verdict(as_no_one / "locked") == (
         "Expected a folder with a notebook, saw one that cannot be read (Permission denied). "
         "Hand in the notebook itself."
     )
@@ -327,11 +327,11 @@ def test_whatever_was_handed_in_has_a_key(surprise, folder, monkeypatch):
     assert MAX_NOTEBOOK_BYTES < 10**9
 
 
-def test_a_file_that_can_not_be_read_has_a_key(as_nobody):
-    (as_nobody / "nodes.ipynb").touch(mode=0)
-    unreadable = key(as_nobody)
-    (as_nobody / "nodes.ipynb").chmod(0o600)
-    assert key(as_nobody) != unreadable
+def test_a_file_that_can_not_be_read_has_a_key(as_no_one):
+    (as_no_one / "nodes.ipynb").touch(mode=0)
+    unreadable = key(as_no_one)
+    (as_no_one / "nodes.ipynb").chmod(0o600)
+    assert key(as_no_one) != unreadable
 
 
 def test_what_was_read_is_the_same_on_another_machine(folder):

@@ -63,7 +63,7 @@ ROOT = Path(__file__).parents[3]
         ("from sim import run\nrun = 1", "takes the name `run`, which is part of sim"),
         ("def __eq__(a, b):\n    return 1", "defines `__eq__`, which decides what it is equal to"),
         ("open('/x/gradebook.db')", "speaks of `gradebook`"),
-        ("1" * 20_001, "has more than 20000 characters: nobody has looked through it"),
+        ("1" * 20_001, "has more than 20000 characters: it was not searched"),
     ],
 )
 def test_a_trick_is_named(source, what):
@@ -90,7 +90,7 @@ def test_a_notebook_without_end_is_looked_through_from_its_beginning():
     cells = [(f"a{number}", "import pty\n" + "a;" * 9_000) for number in range(1000)]
     *found, last = find_suspicious_code(cells)
     assert found == [f"The cell `a{n}` imports `pty`, which starts processes." for n in range(22)]
-    message = "and those before it have more than 400000 characters: nobody has looked further."
+    message = "and those before it have more than 400000 characters: the rest was not searched."
     assert last == f"The cell `a22` {message}"
 
 

@@ -55,7 +55,7 @@ def test_a_cell_that_failed_leaves_its_names_outdated_until_it_runs(notebook, so
     found = notebook.outdated("Robot")
     assert found == OutdatedName("Robot", "SyntaxError" if source == BROKEN else "ZeroDivisionError")
     assert found.saw == f"the cell with Robot ended with {found.error}"
-    assert found.hint == "Mend that cell and run it; then run this one again."
+    assert found.hint == "Fix that cell and run it; then run this one again."
     notebook.run("answer", ROBOT)
     assert notebook.outdated("Robot") is None
 
@@ -109,7 +109,7 @@ def test_a_missing_name_that_a_cell_above_defines_is_explained(notebook):
     fresh.end("answer", BROKEN, "SyntaxError: expected ':' (line 1)")
     assert fresh.explain_missing("Robot") == (
         "The cell above that defines `Robot` ended with SyntaxError: expected ':' (line 1). "
-        "Mend that cell and run it first."
+        "Fix that cell and run it first."
     )
     assert fresh.explain_missing("later") == fresh.explain_missing("nowhere") == ""
 

@@ -80,7 +80,7 @@ def test_a_cell_that_failed_is_not_run_in_its_older_version(kernel):
     assert "SyntaxError" in kernel.run(ROBOT.replace("):", ")", 1), "answer")
     words = (
         "Your last version did not run: the cell with Robot ended with SyntaxError: expected ':' (line 1). "
-        "Mend that cell and run it; then run this one again."
+        "Fix that cell and run it; then run this one again."
     )
     for door in ("run", "play"):
         assert kernel.run(f"{door}(Robot, seconds=1)", "use").strip() == words

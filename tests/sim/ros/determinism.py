@@ -13,7 +13,7 @@ from tests.patience import PATIENCE
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 # What leads another environment's Python to this one's ROS libraries.
-OURS = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONPATH", "AMENT_PREFIX_PATH")
+OWN = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONPATH", "AMENT_PREFIX_PATH")
 
 
 @contextlib.contextmanager
@@ -30,7 +30,7 @@ def busy_machine(processes: int) -> Iterator[None]:
 
 def digests(python: str | Path, hash_seed: int) -> str:
     """The digests of all scenarios in a fresh process, or how it failed."""
-    environment = {name: value for name, value in os.environ.items() if name not in OURS}
+    environment = {name: value for name, value in os.environ.items() if name not in OWN}
     environment |= {"PYTHONHASHSEED": str(hash_seed), "PYTHONPATH": str(REPOSITORY)}
     command = [str(python), "-m", "tests.sim.ros.programs"]
     done = subprocess.run(

@@ -101,7 +101,7 @@ def spin(node: Node, until: float) -> None:
 
 
 def met(name: str, other: str) -> Node:
-    """A node that has found the other one; in a process of its own it is told when the case begins."""
+    """A node that has found the other one; in a process of its own it learns when the case begins."""
     global BEGIN
     node = Node(name)
     while other not in node.get_node_names():

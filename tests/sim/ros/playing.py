@@ -10,7 +10,7 @@ ODD = (0.0031, 0.017, 0.0004, 0.041, 0.0073, 0.09, 0.0119)  # s between two look
 
 
 class Clock:
-    """A clock on which time passes whenever somebody looks at it, by lengths that fit no period."""
+    """A clock on which time passes whenever someone looks at it, by lengths that fit no period."""
 
     def __init__(self, steps=ODD):
         self.now, self.steps = 100.0, itertools.cycle(steps)

@@ -54,10 +54,10 @@ def end(number: int, reliability: str) -> None:
 
 def start(number: int, reliability: str) -> tuple[int, int]:
     """A process with a network of its own; gives its id, and a file of the packets that it sends and gets."""
-    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
+    own, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
     child = os.fork()
     if child:
-        _, files, _, _ = socket.recv_fds(ours, 1, 1)
+        _, files, _, _ = socket.recv_fds(own, 1, 1)
         return child, array.array("i", files)[0]
     if ctypes.CDLL(None).unshare(NEW_NETWORK):
         raise PermissionError("a network of one's own needs root")
@@ -68,7 +68,7 @@ def start(number: int, reliability: str) -> tuple[int, int]:
         "route add 224.0.0.0/4 dev t0",
     ):  # fmt: skip
         subprocess.run(["ip", *words.split()], check=True)
-    socket.send_fds(theirs, [b"x"], [tun])
+    socket.send_fds(other, [b"x"], [tun])
     os.execv(sys.executable, [sys.executable, "-m", "tests.sim.ros.radio", "end", str(number), reliability])
 
 

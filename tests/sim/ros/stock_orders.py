@@ -78,7 +78,7 @@ class Timers(Node):
 
 
 def keep() -> None:
-    """Publish once on a latched topic, and then on another for ever."""
+    """Publish once on a latched topic, and then on another forever."""
     rclpy.init()
     node = rclpy.create_node("keeper")
     node.create_publisher(Int64, "kept", LATCHED).publish(Int64())

@@ -8,7 +8,7 @@ from sim.evidence import is_node_service
 from tests.sim.ros import all_worlds
 
 WORLDS = all_worlds.worlds()
-OURS = {"/explorer", "/operator"}
+OWN = {"/explorer", "/operator"}
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_nothing_goes_wrong_in_a_world(first, name):
 @pytest.mark.parametrize("name", WORLDS)
 def test_a_card_names_all_topics_and_no_others(first, name):
     (line,) = [line for line in WORLDS[name].card.splitlines() if line.startswith("Topics:")]
-    ends = [end for end in first[name].graph.endpoints if end.node not in OURS]
+    ends = [end for end in first[name].graph.endpoints if end.node not in OWN]
     texts = {word.rstrip("/") for word in re.findall(r"(?<![\w/])/[a-z][a-z0-9_/]*", line)}
     there = {end.name for end in ends if not is_node_service(end.name)} - {"/parameter_events"}
     assert texts == there | ({"/clock"} if first[name].messages("/clock") else set())

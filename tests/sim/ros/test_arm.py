@@ -84,7 +84,7 @@ def test_positions_are_gone_to_and_the_frames_follow():
 
 
 @pytest.mark.parametrize("commander", [students.ThreePositions, students.NoNumber])
-def test_a_command_of_another_form_is_told_and_ignored(commander):
+def test_a_command_of_another_form_is_reported_and_ignored(commander):
     recording = run(commander, world="arm", seconds=1, quiet=True)
     words = "A command is one finite number (rad) for each of the 2 joints; "
     words += f"this one was {list(commander.positions)}: check how it was worked out."

@@ -58,7 +58,7 @@ def test_the_answer_is_there_when_a_reentrant_callback_looks_for_it():
     assert (loop.stamp, loop.node, loop.place[:13]) == (1.0, "/busy", "ask, at line ")
 
 
-def test_a_loop_without_end_holds_up_nobody_else():
+def test_a_loop_without_end_holds_up_no_one_else():
     recording = run(busy_loops.LoopsForEver, mains.Counter, seconds=3, quiet=True)
     assert [stamp for stamp, _ in values(recording, "/data")] == TICKS
     assert [stamp for stamp, _ in values(recording, "/count")] == [0.5, 1.0, 1.5, 2.0, 2.5, 3.0]

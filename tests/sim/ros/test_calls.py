@@ -62,8 +62,8 @@ def test_requests_wait_until_the_server_takes_them():
     assert sums(calls) == [(n, 1, n + 1) for n in range(5)]
 
 
-def test_a_call_that_nobody_answers_has_only_been_asked():
-    calls = recorded(services.nobody_answers).calls
+def test_a_call_that_no_one_answers_has_only_been_asked():
+    calls = recorded(services.no_one_answers).calls
     assert ways(calls) == [("/customer", "", 1.5, None, None, None)]
     assert sums(calls) == [(2, 3, None)]
 
@@ -84,7 +84,7 @@ def test_a_call_from_a_thread_is_received():
     assert ways(recording.calls) == [("/customer", "/adder", 1.0, 1.0, 1.0, 1.0)]
 
 
-def test_equal_requests_of_two_clients_are_told_apart():
+def test_equal_requests_of_two_clients_are_distinguished():
     calls = recorded(services.SlowAdder, callers.First, callers.Second).calls
     assert ways(calls) == [
         ("/customer", "/adder", 0.0, 0.0, 0.5, 0.5), ("/second", "/adder", 0.0, 0.5, 1.0, 1.0),

@@ -72,7 +72,7 @@ def test_what_is_received_is_the_simulation_under_the_same_pushes():
             scene.command(1.0)
 
 
-def test_an_effort_that_is_no_number_is_told_once_a_second_and_ignored():
+def test_an_effort_that_is_no_number_is_reported_once_a_second_and_ignored():
     recording = run(students.PushesNoNumber, world="cart_pole", seconds=2.5, quiet=True)
     words = "Efforts are finite numbers (N); this one was nan: check how it was worked out."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
@@ -80,7 +80,7 @@ def test_an_effort_that_is_no_number_is_told_once_a_second_and_ignored():
     assert received(recording) == received(run(world="cart_pole", seconds=2.5, quiet=True))
 
 
-def test_ten_thousand_efforts_a_second_are_all_received_and_told_once_a_second():
+def test_ten_thousand_efforts_a_second_are_all_received_and_reported_once_a_second():
     recording = run(students.Flood, world="cart_pole", seconds=1, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/cart_effort")) == 10_010

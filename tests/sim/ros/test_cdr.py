@@ -46,7 +46,7 @@ INTEGERS = {
     "uint32": (0, 2**32 - 1), "int64": (-(2**63), 2**63 - 1), "uint64": (0, 2**64 - 1),
 }  # fmt: skip
 # They have booleans, single bytes or bounded parts, or are empty.
-TOLD_BY_VALUES = {
+FOUND_BY_VALUES = {
     "std_msgs/msg/Bool", "std_msgs/msg/Byte", "std_msgs/msg/Empty", "sensor_msgs/msg/PointCloud2",
     "sensor_msgs/msg/BatteryState", "sensor_msgs/msg/CameraInfo", "diagnostic_msgs/msg/DiagnosticArray",
     "visualization_msgs/msg/MarkerArray", "visualization_msgs/msg/InteractiveMarkerUpdate",
@@ -98,7 +98,7 @@ def test_canonical_bytes_mean_the_same(name):
 
 @pytest.mark.parametrize("name", TYPES)
 def test_equal_messages_have_equal_bytes(name):
-    """Whatever was in memory before, and whatever lies in the gaps and behind the end."""
+    """Whatever was in memory before, and whatever is in the gaps and after the end."""
     message = filled(random.Random(f"{name} again"), message_class(name))
     kept = canonical(name, encode(message))
     for size in (10, 1000, 100_000):
@@ -112,12 +112,12 @@ def test_bytes_are_known_as_canonical_by_their_sizes(name):
     chance = random.Random(name)
     for _ in range(ROUNDS):
         raw = canonical(name, encode(filled(chance, message_class(name))))
-        assert is_canonical(name, raw) == (name not in TOLD_BY_VALUES)
+        assert is_canonical(name, raw) == (name not in FOUND_BY_VALUES)
         for other in (raw[:-1], raw + b"\0", b"\0\0" + raw[2:], raw[:2] + b"\0\1" + raw[4:], b""):
             assert not is_canonical(name, other)
 
 
-@pytest.mark.parametrize("name", sorted(set(TYPES) - TOLD_BY_VALUES))
+@pytest.mark.parametrize("name", sorted(set(TYPES) - FOUND_BY_VALUES))
 def test_what_is_known_as_canonical_is_what_ros_writes(name):
     """Whatever is done to the bytes. Of the many that are not a number ROS writes one for another."""
     chance, kept = random.Random(name), 0

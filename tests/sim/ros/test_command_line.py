@@ -8,8 +8,8 @@ from sim import Process, run
 from tests.sim.ros.evidence import logged, raised
 from tests.students.engine import command_line
 
-NOBODY = (
-    "input() waits for somebody at the keyboard; give it lines, as in run(Process(main, "
+NO_TERMINAL = (
+    "input() waits for a person at the keyboard; give it lines, as in run(Process(main, "
     'stdin=["first line", "second line"])), or let the node get its input from topics and parameters'
 )
 
@@ -63,11 +63,11 @@ def test_init_with_no_words_sees_none():
     assert received(Process(command_line.no_ros_words, name="other")) == [(0.0, "plain", "here")]
 
 
-def test_a_program_without_lines_is_told_how_to_get_some():
+def test_a_program_without_lines_learns_how_to_get_some():
     recording = run(command_line.asks, seconds=1, quiet=True)
-    assert raised(recording) == [(0.0, "/asks", "asks", "RuntimeError", NOBODY)]
+    assert raised(recording) == [(0.0, "/asks", "asks", "RuntimeError", NO_TERMINAL)]
     recording = run(command_line.reads_stdin, seconds=1, quiet=True)
-    assert raised(recording) == [(0.0, "/reads", "reads_stdin", "RuntimeError", NOBODY)]
+    assert raised(recording) == [(0.0, "/reads", "reads_stdin", "RuntimeError", NO_TERMINAL)]
 
 
 def test_input_returns_one_line_after_the_other():

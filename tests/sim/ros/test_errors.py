@@ -64,7 +64,7 @@ FIRST_ERROR = {
     ),
     errors.asks_the_keyboard: (
         0.0, "/asker", "asks_the_keyboard", "RuntimeError",
-        "input() waits for somebody at the keyboard; give it lines, as in run(Process(main, "
+        "input() waits for a person at the keyboard; give it lines, as in run(Process(main, "
         'stdin=["first line", "second line"])), or let the node get its input from topics and parameters',
     ),
     errors.events_executor: (

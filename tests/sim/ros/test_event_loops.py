@@ -40,7 +40,7 @@ def test_two_programs_have_their_own_event_loops():
     assert why(recording) == ("finished", 2.0, "Every program had ended by t = 1 s.")
 
 
-def test_waiting_for_ever_in_an_event_loop_is_told():
+def test_waiting_for_ever_in_an_event_loop_is_reported():
     reason, stamp, detail = why(run(event_loops.waits_for_nothing, seconds=2, quiet=True))
     assert (reason, stamp) == ("blocked", 2.0)
     words = "<lambda> of node /waiting has waited since t = 0.5 s and never returned, at line "

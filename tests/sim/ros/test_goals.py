@@ -115,8 +115,8 @@ def test_a_goal_can_be_executed_later():
     assert goal.events == [(0.0, "accepted"), (2.0, "executing"), (5.0, "succeeded")]
 
 
-def test_a_goal_that_nobody_takes_has_only_been_asked():
-    recording = recorded(goals.asks_nobody)
+def test_a_goal_that_no_one_takes_has_only_been_asked():
+    recording = recorded(goals.asks_no_one)
     assert [(way(goal), goal.events) for goal in recording.goals] == [(("/client", "", 0.0, None, None), [])]
     assert recording.goals[0].status == ""
 
@@ -131,7 +131,7 @@ def test_a_client_need_not_ask_for_the_result():
     assert list(goal.result.sequence) == [0, 1, 1, 2, 3]
 
 
-def test_an_id_that_is_used_again_is_rejected_and_told_apart():
+def test_an_id_that_is_used_again_is_rejected_and_distinguished():
     first, second = recorded(actions.Server, goals.SameIdTwice).goals
     assert first.id == second.id == bytes(range(16)).hex()
     assert (first.request.order, first.events) == (1, [*STARTED, (1.0, "succeeded")])
@@ -195,7 +195,7 @@ def test_a_server_that_is_destroyed_meanwhile_leaves_what_was_done():
 
 
 def test_a_goal_before_there_is_a_server_is_lost():
-    assert only(goals.asks_nobody, actions.late_server).lost
+    assert only(goals.asks_no_one, actions.late_server).lost
     assert not only(actions.Server, actions.Client).lost
 
 

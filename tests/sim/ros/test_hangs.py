@@ -65,7 +65,7 @@ def test_a_loop_is_stopped_whatever_it_does(node):
     assert detail.startswith(f"{BUSY.format(name)} computed for 0.4 s without coming to an end, at line ")
 
 
-def test_a_call_that_nobody_answers_is_interrupted(usual, monkeypatch):
+def test_a_call_that_no_one_answers_is_interrupted(usual, monkeypatch):
     def impatient(recording):  # from the start on, which a busy machine may hold up
         monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
 
@@ -92,17 +92,17 @@ def test_many_short_waits_in_real_time_have_an_end(usual, monkeypatch):
 
 @pytest.mark.parametrize("node, line, waits_for", [
     (hangs.Lock, "with lock, lock:", "a lock"),
-    (hangs.EventNobodySets, "threading.Event().wait()", "a lock"),
+    (hangs.EventNoOneSets, "threading.Event().wait()", "a lock"),
     (hangs.EmptyQueue, "queue.Queue().get()", "a lock"),
 ], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
 @pytest.mark.usefixtures("usual")
-def test_waiting_for_ever_is_told_with_its_line(node, line, waits_for):
+def test_waiting_for_ever_is_reported_with_its_line(node, line, waits_for):
     recording = run(node, seconds=3, quiet=True)
     detail = STUCK.format(node.__name__, line_in(node, line), line, waits_for)
     assert why(recording) == ("blocked", 3.0, detail)
 
 
-def test_waiting_for_a_thread_is_told_alike_each_time():
+def test_waiting_for_a_thread_is_reported_alike_each_time():
     first, second = (run(hangs.JoinsItself, seconds=3, quiet=True) for _ in range(2))
     assert first.ended == second.ended
     assert first.ended.reason == "blocked"
@@ -112,7 +112,7 @@ def test_waiting_for_a_thread_is_told_alike_each_time():
     (hangs.AsksForEver, "blocked"), (hangs.asks_in_a_program_that_ends, "finished"),
 ])  # fmt: skip
 def test_a_coroutine_that_swallows_its_end_is_left_behind(usual, program, reason):
-    """It goes on where it waited; when its node is gone, asking fails, and it asks again, for ever."""
+    """It goes on where it waited; when its node is gone, asking fails, and it asks again, forever."""
     recording = run(program, seconds=3, quiet=True)
     assert (recording.ended.reason, recording.errors, recording.stderr) == (reason, [], "")
 

@@ -72,7 +72,7 @@ def test_new_positions_midway_keep_to_the_limits():
     assert max(steps) <= MODEL.max_acceleration * 0.05 + 1e-9
 
 
-def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored():
+def test_a_command_that_is_no_number_is_reported_once_a_second_and_ignored():
     recording = run(students.NoNumber, world="joint", seconds=2.5, quiet=True)
     words = "Joint commands are finite numbers (rad); this one was inf: check how it was worked out."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
@@ -80,7 +80,7 @@ def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored():
     assert (recording.errors, received(recording)[-1]) == ([], (2.5, 0.0, 0.0))
 
 
-def test_ten_thousand_commands_a_second_are_all_received_and_told_once_a_second():
+def test_ten_thousand_commands_a_second_are_all_received_and_reported_once_a_second():
     recording = run(students.Flood, world="joint", seconds=2, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/joint_commands")) == 20_001

@@ -300,9 +300,9 @@ def test_a_launch_description_can_be_run(tmp_path):
 
 
 def test_launch_of_a_ros_installation_is_refused(monkeypatch):
-    theirs = type(sys)("launch")
-    theirs.__file__ = "/opt/ros/jazzy/launch/__init__.py"
-    monkeypatch.setitem(sys.modules, "launch", theirs)
+    other = type(sys)("launch")
+    other.__file__ = "/opt/ros/jazzy/launch/__init__.py"
+    monkeypatch.setitem(sys.modules, "launch", other)
     monkeypatch.delitem(sys.modules, "launch.processes", raising=False)
     (error,) = run("x.launch.py", seconds=1, quiet=True).errors
     assert error.text == (

@@ -102,7 +102,7 @@ def test_no_node_outlives_its_run(program):
     assert nothing_is_left(before)
 
 
-def test_a_stream_that_somebody_keeps_keeps_nothing_of_the_run(capsys):
+def test_a_stream_that_someone_keeps_keeps_nothing_of_the_run(capsys):
     import sys
 
     kept, nodes = [], weakref.WeakSet()

@@ -81,7 +81,7 @@ def test_a_parameter_of_a_program_is_read_as_it_was_given(given, read):
     assert (list(value) if isinstance(read, list) else value) == read
 
 
-def test_two_of_a_kind_are_told_apart_by_namespace():
+def test_two_of_a_kind_are_distinguished_by_namespace():
     pair = [Process(names.Talker, namespace=name) for name in ("/robot1", "robot2")]
     recording = run(*pair, seconds=1, quiet=True)
     assert recording.topics == {

@@ -171,7 +171,7 @@ def test_what_is_lost_stays_lost_when_its_publisher_has_gone():
     assert (logged(recording), crossing(recording).resent) == ([], 0)
 
 
-def test_what_is_under_way_to_one_that_has_gone_reaches_nobody():
+def test_what_is_under_way_to_one_that_has_gone_reaches_no_one():
     recording = through(FAR, network.Counter, network.listens_for_a_moment, seconds=5)
     assert (logged(recording), recording.errors) == ([], [])
     assert crossing(recording).sent == 1

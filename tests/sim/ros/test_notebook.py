@@ -56,7 +56,7 @@ def test_a_run_is_equal_to_one_outside(shown):
     assert shown["digest"] == run(mains.classic, world="room", seconds=5, quiet=True).digest + "\n"
 
 
-def test_logging_handlers_of_earlier_cells_hold_nobody_up(shown):
+def test_logging_handlers_of_earlier_cells_hold_no_one_up(shown):
     callbacks = len(run(output.PythonLogging, seconds=5, quiet=True).callbacks)
     assert shown["logging"] == f"{{{callbacks}}} 1\n"
 

@@ -222,7 +222,7 @@ def test_computing_counts_over_all_frames(monkeypatch):
     assert played.ended.detail.startswith("The nodes computed for 0.9 s in all, and were stopped in ")
 
 
-def test_time_between_two_frames_is_nobodys(monkeypatch):
+def test_time_between_two_frames_belongs_to_none(monkeypatch):
     """Waiting and computing in other cells is not the nodes'."""
     import time
 

@@ -65,7 +65,7 @@ def test_a_pause_stops_time_and_a_step_is_one_scan(robot):
     assert robot.recording.stamp > stamp + 0.2
 
 
-def test_the_graph_is_shown_when_somebody_asks_and_it_has_changed_once_a_second_at_most(robot):
+def test_the_graph_is_shown_when_someone_asks_and_it_has_changed_once_a_second_at_most(robot):
     def ask(count):
         for _ in range(count):
             robot.watcher.on_command({"graph": True})
@@ -456,7 +456,7 @@ def test_where_there_is_no_robot_nothing_is_started(clock):
     assert made.recording.graph.nodes == ["/counter"]
 
 
-def test_a_teleop_nobody_uses_says_nothing_and_changes_nothing():
+def test_a_teleop_no_one_uses_says_nothing_and_changes_nothing():
     usual = run(Teleop, world="yard", seconds=5, quiet=True)
     assert usual.messages("/cmd_vel") == []
     made = playing.player(Teleop, world="yard", seconds=5)

@@ -21,7 +21,7 @@ def received(*programs):
 
 
 @pytest.mark.parametrize("guest", [qos_events.Guest, qos_events.leaves])
-def test_a_node_is_told_who_comes_and_goes(guest):
+def test_a_node_learns_who_comes_and_goes(guest):
     assert received(qos_events.Watcher, guest) == COMING_AND_GOING
     assert received(guest, qos_events.Watcher) == COMING_AND_GOING
 
@@ -82,7 +82,7 @@ def test_who_is_there_is_alive_by_itself():
     ]  # fmt: skip
 
 
-def test_lost_messages_are_told_with_the_next_one_that_comes():
+def test_lost_messages_are_reported_with_the_next_one_that_comes():
     radio = Network(loss=0.2, delay=0.05)
     sloppy = Process(network.SloppyCounter, host="robot")
     assert events_of(sloppy, qos_events.ListensOnBestEffort, seconds=3, network=radio) == [

@@ -31,7 +31,7 @@ def straight():
 
 @pytest.fixture(scope="module")
 def still():
-    """Nobody drives, in a room with walls."""
+    """No one drives, in a room with walls."""
     return run(drivers.Watcher, world="room", seconds=2, quiet=True)
 
 
@@ -167,7 +167,7 @@ def test_without_commands_the_robot_stops_after_half_a_second():
 @pytest.mark.parametrize("driver, command", [
     (drivers.CommandsNoNumber, "nan m/s and 0.0 rad/s"), (drivers.CommandsInfinity, "0.1 m/s and inf rad/s"),
 ])  # fmt: skip
-def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored(driver, command):
+def test_a_command_that_is_no_number_is_reported_once_a_second_and_ignored(driver, command):
     recording = run(driver, world="yard", seconds=2.5, quiet=True)
     words = f"Velocity commands are finite numbers; this one was {command}: check how it was worked out."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
@@ -176,7 +176,7 @@ def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored(driver, c
     assert recording.errors == []
 
 
-def test_a_flood_of_commands_is_told_once_a_second_and_obeyed():
+def test_a_flood_of_commands_is_reported_once_a_second_and_obeyed():
     recording = run(drivers.Flood, world="yard", seconds=2.5, quiet=True)
     assert tuple(recording.ended) == ("time", 2.5, "All 2.5 s were run.")
     assert len(recording.messages("/cmd_vel")) == 25_000

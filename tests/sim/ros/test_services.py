@@ -56,7 +56,7 @@ def test_answers_come_in_the_order_of_the_requests():
 
 
 def test_without_a_server_nothing_comes():
-    recording = run(services.nobody_answers, seconds=9, quiet=True)
+    recording = run(services.no_one_answers, seconds=9, quiet=True)
     assert logged(recording) == [(1.5, "there False"), (2.5, "done False")]
     assert why(recording) == ("finished", 3.5, "Every program had ended by t = 2.5 s.")
 
@@ -114,6 +114,6 @@ def test_parameters_are_reached_over_services():
     assert logged(recording) == [(0.0, "0.1 left"), (0.0, "radius 0.1"), (0.0, "set True")]
 
 
-def test_a_call_that_is_watched_is_told_in_four_events():
+def test_a_call_that_is_watched_is_reported_in_four_events():
     recording = run(services.WatchesItself, seconds=2, quiet=True)
     assert (recording.errors, sorted(logged(recording))) == ([], [(1.0, str(kind)) for kind in range(4)])

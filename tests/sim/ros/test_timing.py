@@ -126,7 +126,7 @@ def test_time_passes_and_never_jumps_for_clocks_that_are_gone_or_kept():
     ]
 
 
-def test_a_switch_of_use_sim_time_is_told_and_time_goes_on():
+def test_a_switch_of_use_sim_time_is_reported_and_time_goes_on():
     assert stamps(timing.SwitchesTime, 2) == [
         (0.5, "kept before: False"), (0.5, "kept after: True, ROS_TIME_ACTIVATED"),
         (0.5, "1735689600500000000"), (1.0, "1735689601000000000"),

@@ -52,7 +52,7 @@ def test_a_robot_is_the_same_with_the_middleware_in_between(monkeypatch):
     assert evidence(all_worlds.in_use(world)) == evidence(inside)
 
 
-def test_late_listeners_get_what_is_latched_and_nobody_else_does():
+def test_late_listeners_get_what_is_latched_and_no_one_else_does():
     lines = logged(run(topics.EveryProfile, seconds=2, quiet=True))
     assert late(lines, "chat_0") == ["word 2", "last word"]  # both latch, and two fit into the queue
     assert late(lines, "chat_1") == ["last word"]
@@ -64,11 +64,11 @@ def test_what_a_publisher_has_latched_goes_with_it():
         "of the one that goes",
         "of the one that stays",
         "of the one that stays",
-        "to nobody",
+        "to no one",
     ]
 
 
-def test_bytes_that_are_no_message_reach_nobody():
+def test_bytes_that_are_no_message_reach_no_one():
     recording = run(topics.Garbage, seconds=2.5, quiet=True)
     assert logged(recording) == ["a message", "a message"]
     assert not recording.errors

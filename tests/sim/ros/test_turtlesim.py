@@ -48,8 +48,8 @@ def ahead():
 
 def test_names_and_types_are_upstreams(ahead):
     ends = {(end.kind, end.name): end.type for end in ahead.graph.endpoints if end.node == "/turtlesim"}
-    ours = {key: kind for key, kind in ends.items() if not kind.startswith("rcl_interfaces/")}
-    assert ours == {
+    own = {key: kind for key, kind in ends.items() if not kind.startswith("rcl_interfaces/")}
+    assert own == {
         ("subscription", "/turtle1/cmd_vel"): "geometry_msgs/msg/Twist",
         ("publisher", "/turtle1/pose"): "turtlesim/msg/Pose",
         ("publisher", "/turtle1/color_sensor"): "turtlesim/msg/Color",
@@ -99,7 +99,7 @@ def test_at_the_edge_a_turtle_stops_and_says_so_at_each_step():
 
 def test_turtles_come_and_go():
     recording = in_pond(
-        (0.5, "spawn"), (0.6, "spawn"), (0.7, "spawn", "turtle2"), (0.8, "kill", "nobody"),
+        (0.5, "spawn"), (0.6, "spawn"), (0.7, "spawn", "turtle2"), (0.8, "kill", "absent"),
         (0.9, "kill", "turtle2"), (1.0, "spawn", "my turtle"), (1.1, "spawn", "nemo"),
         (1.2, "reset"), (1.4, "spawn"), seconds=2,
     )  # fmt: skip
@@ -111,7 +111,7 @@ def test_turtles_come_and_go():
         (0.6, "Its name is 'turtle3'"),
         (0.7, "A turtle named [turtle2] already exists"),
         (0.7, "Its name is ''"),
-        (0.8, "Tried to kill turtle [nobody], which does not exist"),
+        (0.8, "Tried to kill turtle [absent], which does not exist"),
         (1.0, "A turtle can't be named [my turtle]: write letters, digits and _, and begin with a letter"),
         (1.0, "Its name is ''"),
         (1.1, spawning.format("nemo")),

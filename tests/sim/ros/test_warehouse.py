@@ -104,7 +104,7 @@ def test_a_late_subscriber_receives_all_orders(served):
     assert served.errors == []
 
 
-def test_the_map_its_frame_and_the_charger_are_told_once(served):
+def test_the_map_its_frame_and_the_charger_are_reported_once(served):
     (grid,) = [item.message for item in served.messages("/map")]
     assert (grid.header.frame_id, grid.info.width, grid.info.height) == ("map", 84, 44)
     assert set(grid.data) == {0}
@@ -151,7 +151,7 @@ def test_who_does_not_stay_gets_nothing():
 
 
 @pytest.mark.parametrize(("share", "ending"), [(0.0, EXPIRED), (1.0, CANCELED)])
-def test_an_order_that_nobody_brings_ends(share, ending):
+def test_an_order_that_no_one_brings_ends(share, ending):
     model = dataclasses.replace(FLOOR.warehouse, patience=10, canceled=share)
     recording = run(world=dataclasses.replace(FLOOR, warehouse=model), seconds=20)
     (end,) = [item for item in recording.messages("/orders") if statuses_of(item) == (1, ending)]

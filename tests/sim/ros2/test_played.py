@@ -16,10 +16,12 @@ from tests.sim.ros2.nodes import NODES
 from tests.sim.ros2.official import OFFICIAL, plain
 from tests.sim.ros2.test_recorded import CHANGES
 
-NOBODY = "Waiting for at least 1 matching subscription(s)... Nobody listens on /levle. Did you mean /level?\n"
+UNMATCHED = (
+    "Waiting for at least 1 matching subscription(s)... No node subscribes to /levle. Did you mean /level?\n"
+)
 PARAMETERS = "/talker:\n  ros__parameters:\n    speed: 1.25\n    label: ''\n"
-# The nearest name is ours; a failed transition's or goal's form is theirs.
-OURS = {
+# The nearest name is the course's; a failed transition's or goal's form is official.
+OWN = {
     "topic pub --once /level std_msgs/msg/Nothing '{data: 2.0}'": (
         "The passed message type is invalid. Did you mean std_msgs/msg/String?\n"
     ),
@@ -50,7 +52,7 @@ def playing(capsys, tmp_path, monkeypatch):
 def test_commands_that_change_the_system_match_the_official_tools(playing):
     for command in filter(CHANGES.match, OFFICIAL):
         expected = plain(OFFICIAL[command])
-        assert plain(playing(command)) == OURS.get(command, expected), command
+        assert plain(playing(command)) == OWN.get(command, expected), command
     levels = [received.message.data for received in playing.player.recording.messages("/level")]
     assert levels == [2.0, 2.0, 2.0]
     assert not playing.player.recording.errors
@@ -92,13 +94,14 @@ def test_endless_publishing_ends_after_five_simulated_seconds(playing):
     [
         (
             "topic pub --once /levle std_msgs/msg/Float64",
-            NOBODY
+            UNMATCHED
             + 2 * "Waiting for at least 1 matching subscription(s)...\n"
             + "Nothing came of it within 2.1 s of the play.\n",
         ),
         (
             "topic pub --once --max-wait-time-secs 0.3 /levle std_msgs/msg/Float64",
-            f"{NOBODY}Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers\n",
+            f"{UNMATCHED}Timed out waiting for subscribers: Expected 1 subcribers but only got 0 "
+            "subscribers\n",
         ),
         (
             "service call /ad example_interfaces/srv/AddTwoInts",

@@ -16,8 +16,8 @@ OVER = (
     "Nothing runs any more: this is the recording of the last run. Start one with play(...), and try again"
     " while it goes on.\n"
 )
-# Where ours says more, or another thing.
-OURS = {
+# Where the course's output has more, or differs.
+OWN = {
     "topic type /nothing": "Unknown topic '/nothing'\n",
     "service type /nothing": "Unknown service '/nothing'\n",
     "action type /nothing": "Unknown action '/nothing'\n",
@@ -59,7 +59,7 @@ def said(recording, capsys):
 
 @pytest.mark.parametrize("command", READ)
 def test_a_recording_is_described_as_the_official_tools_describe_a_system(said, command):
-    assert plain(said(command)) == OURS.get(command, plain(OFFICIAL[command]))
+    assert plain(said(command)) == OWN.get(command, plain(OFFICIAL[command]))
 
 
 @pytest.mark.parametrize("command", MEASURED)

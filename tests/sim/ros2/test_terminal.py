@@ -15,15 +15,15 @@ import pytest
 from sim.ros2.terminal import IN_CELL, official_command
 from tests.patience import PATIENCE, until
 from tests.sim.ros2.official import OFFICIAL, plain
-from tests.sim.ros2.test_played import OURS as PLAYED
+from tests.sim.ros2.test_played import OWN as PLAYED
 from tests.sim.ros2.test_played import PARAMETERS
 from tests.sim.ros2.test_recorded import MEASURED
-from tests.sim.ros2.test_recorded import OURS as READ
+from tests.sim.ros2.test_recorded import OWN as READ
 from tests.sim.standalone.programs import REPOSITORY, environment, free_domain, robot
 
-OURS = READ | PLAYED
+OWN = READ | PLAYED
 FAILS = re.compile(
-    r"nobody|[Nn]othing|dat:|c: 3|hello$|9\.0|label ''|fixed false|speed fast|activate|lifecycle get /talker"
+    r"absent|[Nn]othing|dat:|c: 3|hello$|9\.0|label ''|fixed false|speed fast|activate|lifecycle get /talker"
 )
 NOT_YET = re.compile(r"WARNING: topic \[.*\] does not appear to be published yet")  # on a busy machine
 ROS2 = [sys.executable, "-m", "sim.ros2.terminal"]
@@ -31,8 +31,8 @@ ROS2 = [sys.executable, "-m", "sim.ros2.terminal"]
 
 def start(words, domain, **more):
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-    told = environment(ROS_DOMAIN_ID=str(domain), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", **more)
-    process = subprocess.Popen(words, cwd=REPOSITORY, text=True, env=told, **pipes)
+    reported = environment(ROS_DOMAIN_ID=str(domain), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", **more)
+    process = subprocess.Popen(words, cwd=REPOSITORY, text=True, env=reported, **pipes)
     process.domain = domain  # which is another test's again when the process is gone
     return process
 
@@ -77,7 +77,7 @@ def terminal(system, tmp_path_factory):
 @pytest.mark.parametrize("command", [command for command in OFFICIAL if command not in MEASURED])
 def test_nodes_in_another_process_are_described_as_by_the_official_tools(terminal, command):
     said, status = terminal(command)
-    expected = plain(OURS.get(command, OFFICIAL[command]))
+    expected = plain(OWN.get(command, OFFICIAL[command]))
     if "--feedback" in command:  # a topic: it may overtake the acceptance, and the result it
         said, wanted = Counter(plain(said).split("\n\n")), Counter(expected.split("\n\n"))
         assert not said - wanted
@@ -187,8 +187,8 @@ def test_a_command_in_a_cell_points_to_the_magic(system, monkeypatch):
 
 
 def test_an_invalid_domain_is_reported():
-    told = "ROS_DOMAIN_ID is 'lab', and a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
-    assert ended([*ROS2, "node", "list"], "lab") == (1, "", told)
+    wrong = "ROS_DOMAIN_ID is 'lab', and a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
+    assert ended([*ROS2, "node", "list"], "lab") == (1, "", wrong)
 
 
 # What bash does when Tab is pressed after a line; prints the completions.
@@ -208,7 +208,7 @@ TYPED = {
     "ros2 action send_goal /fibonacci ": "example_interfaces/action/Fibonacci",
     "ros2 lifecycle get /": "/lamp",
     "ros2 param get /talker s": "speed start_type_description_service steps",
-    "ros2 param get /nobody s": "",
+    "ros2 param get /absent s": "",
     "ros2 run turtlesim ": "mimic turtlesim_node",
     "ros2 run nowhere ": "",
 }
@@ -232,23 +232,23 @@ def test_bash_completes_verbs_names_and_types(system):
 
 def test_an_invalid_domain_completes_nothing():
     """Bash would show an error in the middle of the line."""
-    told = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": " ", "_ARGCOMPLETE_STDOUT_FILENAME": "/dev/stderr"}
-    told |= {"_ARGCOMPLETE_SHELL": "bash", "COMP_TYPE": "9", "COMP_POINT": "16"}
-    told |= {"COMP_LINE": "ros2 node info /"}
+    reported = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": " ", "_ARGCOMPLETE_STDOUT_FILENAME": "/dev/stderr"}
+    reported |= {"_ARGCOMPLETE_SHELL": "bash", "COMP_TYPE": "9", "COMP_POINT": "16"}
+    reported |= {"COMP_LINE": "ros2 node info /"}
     program = "import sys; from sim.ros2.terminal import main; sys.exit(main())"
-    assert ended([sys.executable, "-c", program], "lab", **told) == (0, "", "")
+    assert ended([sys.executable, "-c", program], "lab", **reported) == (0, "", "")
 
 
 def test_the_official_command_is_executed_if_installed(tmp_path):
-    ours, theirs = tmp_path / "ours", tmp_path / "theirs"
-    texts = {ours: "from sim.ros2.terminal import main", theirs: 'echo official "$@"; exit 3'}
+    own, other = tmp_path / "own", tmp_path / "other"
+    texts = {own: "from sim.ros2.terminal import main", other: 'echo official "$@"; exit 3'}
     for folder, text in texts.items():
         folder.mkdir()
         (folder / "ros2").write_text(f"#!/bin/sh\n{text}\n")
         (folder / "ros2").chmod(0o755)
-    assert official_command(str(ours)) is None
-    assert official_command(f"{ours}:{tmp_path / 'none'}::{theirs}") == theirs / "ros2"
-    path = f"{ours}:{theirs}:{os.environ['PATH']}"
+    assert official_command(str(own)) is None
+    assert official_command(f"{own}:{tmp_path / 'none'}::{other}") == other / "ros2"
+    path = f"{own}:{other}:{os.environ['PATH']}"
     assert ended([*ROS2, "topic", "list"], 0, PATH=path) == (3, "official topic list\n", "")
 
 

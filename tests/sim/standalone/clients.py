@@ -27,7 +27,7 @@ def node_of(name):
 
 
 def continue_for_ever(node, each=lambda: None):
-    """Say that it has begun, and go on until it is told to end."""
+    """Say that it has begun, and go on until it has to end."""
     each()
     print("here", flush=True)
     while True:
@@ -146,7 +146,7 @@ def impostor():
 
 
 def crowd():
-    """A hundred subscriptions that nobody reads."""
+    """A hundred subscriptions that no one reads."""
     node = node_of("crowd")
     for _ in range(100):
         node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
@@ -179,5 +179,5 @@ if __name__ == "__main__":
     try:
         globals()[sys.argv[1]]()
     except Exception:
-        if rclpy.ok():  # else it was told to end
+        if rclpy.ok():  # else it had to end
             raise

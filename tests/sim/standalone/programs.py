@@ -1,4 +1,4 @@
-"""Starts the robot and its clients as processes of their own, in a domain that nobody else uses."""
+"""Starts the robot and its clients as processes of their own, in a domain that no one else uses."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from tests.browser.pictures import COLORS, chromium
 from tests.patience import PATIENCE
 from tests.sim.standalone.programs import ended, robot
 
-GRAPH = {"words": "nobody"}
+GRAPH = {"words": "absent"}
 FACTS = {"world": {"name": "nowhere"}, "status": {}}
 DRIVE = json.dumps({"drive": [1, -0.5]})
 FORBIDDEN = (403, b"Forbidden\n")
@@ -182,8 +182,8 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
         page.keyboard.up("ArrowUp")
         running.receive_until(lambda received: received["v"] == 0.0)
         page.locator(".graph summary").press("Enter")
-        page.locator(".graph svg .ours text", has_text="/robot").wait_for()
-        page.locator(".graph svg .ours text", has_text="/teleop").wait_for()
+        page.locator(".graph svg .course text", has_text="/robot").wait_for()
+        page.locator(".graph svg .course text", has_text="/teleop").wait_for()
         with running.beside("crowd"):
             page.locator(".graph svg .node text").first.wait_for()
         page.screenshot(path=ARTIFACTS / "standalone-graph.png", full_page=True)

@@ -37,7 +37,7 @@ def yard():
 
 
 def alive(running):
-    """Whether somebody who listens now receives new scans."""
+    """Whether someone who listens now receives new scans."""
     return running.listen()["frame"] == "base_scan"
 
 

@@ -85,10 +85,10 @@ AROUND = """
 def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_path):
     (tmp_path / "watcher.py").write_text(WATCHER)
     path = file(tmp_path, "mimic.launch.py", MIMIC + AROUND)
-    told = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
-    told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "ros_packages/python")])
+    reported = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
+    reported["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "ros_packages/python")])
     arguments = [*ROS2, "launch", str(path), f"sigterm_timeout:={PATIENCE}"]
-    process = start(arguments, free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
+    process = start(arguments, free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **reported)
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, err) == (0, "")
     assert "[python3-5] it mimics\n" in out

@@ -10,7 +10,7 @@ from tests.sim.view.test_graph_plot import red, texts
 
 
 def broadcaster(*pairs, moving=()):
-    """A node that tells of frames, each a parent and a child."""
+    """A node that publishes frames, each a parent and a child."""
 
     class Telling(Node):
         def __init__(self):
@@ -65,4 +65,4 @@ def test_a_frame_with_two_parents_is_red():
 
 def test_a_run_without_frames_says_so():
     figure = drawn(broadcaster())
-    assert (figure.description, texts(figure)) == ("No node told of a frame.", ["no frames"])
+    assert (figure.description, texts(figure)) == ("No node published a frame.", ["no frames"])

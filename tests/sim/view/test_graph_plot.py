@@ -19,13 +19,13 @@ from tests.sim.ros2.nodes import Lamp
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 WORDS = """\
-topic /bumper (20 Hz): /robot -> nobody
+topic /bumper (20 Hz): /robot -> no node
 topic /cmd_vel (10 Hz): /avoider -> /robot
-topic /joint_states (20 Hz): /robot -> nobody
+topic /joint_states (20 Hz): /robot -> no node
 topic /odom (20 Hz): /robot -> /avoider
 topic /scan (20 Hz): /robot -> /avoider
-topic /tf (20 Hz): /robot -> nobody
-topic /tf_static (1 message): /robot -> nobody"""
+topic /tf (20 Hz): /robot -> no node
+topic /tf_static (1 message): /robot -> no node"""
 
 
 @pytest.fixture(scope="module")
@@ -52,14 +52,15 @@ def test_it_shows_nodes_topics_and_rates_and_describes_them():
 
 
 def test_what_does_not_connect_is_red_broken_and_numbered_with_its_reason_below(delivery):
-    assert len(red(delivery)) == 6  # a slip has two: to the name that was meant, and to the node that waits
+    assert len(red(delivery)) == 6  # a typo has two: to the name that was meant, and to the node that waits
     assert all(arrow.get_linestyle() != "-" for arrow in red(delivery))
     shown = texts(delivery)
     for number in "12345":
         assert number in shown
         assert any(text.startswith(f"{number}  ") for text in shown)
     assert "1  On /image /camera publishes with reliability best_effort, and" in " ".join(shown)
-    assert delivery.description.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
+    reason = "/mission gets no response: no node offers the action /drive_too."
+    assert delivery.description.endswith(f"\n5. {reason}")
 
 
 def test_fifteen_nodes_fit_on_a_page_and_no_boxes_overlap(delivery):
@@ -110,7 +111,7 @@ def test_of_a_very_large_graph_what_is_missing_comes_first_and_the_rest_is_count
     figure = plot_graph(recorded(*given, *taken, ("subscription", "/lonely", "/target")))
     assert "/lonely" in texts(figure) and len(red(figure)) == 1
     omitted = "Not shown: 20 nodes, 461 topics, services and actions."
-    reason = "/lonely waits in vain: nobody publishes on /target."
+    reason = "/lonely receives nothing: no node publishes on /target."
     assert figure.description.endswith(f"\nMissing:\n1. {reason}\n{omitted}")
     assert omitted in texts(figure)
     assert "and 27 more" in texts(figure)
@@ -137,7 +138,7 @@ def test_a_page_gets_the_same_in_whole_pixels():
     data = graph_data(recording)
     assert data["words"] == plot_graph(recording).description
     assert data["reasons"] == [
-        "/b waits in vain: nobody publishes on /newz, and /a has /news. Is /news a typo? "
+        "/b receives nothing: no node publishes on /newz, but /a publishes on /news. Is /news a typo? "
         "Did you mean /newz?"
     ]
     kinds = [(box["kind"], *box["lines"]) for box in data["boxes"]]

@@ -113,8 +113,8 @@ def test_poses_and_scans_are_where_they_were_to_the_millimeter(drive):
     assert scan["pose"] == pytest.approx(at[1:], abs=5.1e-4)
     received = next(h for h in drive.messages("/scan") if round(h.stamp * 1000) == scan["stamp"]).message
     stride = round(scan["step"] / received.angle_increment)
-    for told, true in zip(summed(scan["ranges"]), received.ranges[::stride], strict=True):
-        assert told * 0.02 == pytest.approx(true, abs=0.011) if math.isfinite(true) else told == -1
+    for reported, true in zip(summed(scan["ranges"]), received.ranges[::stride], strict=True):
+        assert reported * 0.02 == pytest.approx(true, abs=0.011) if math.isfinite(true) else reported == -1
 
 
 def test_a_ray_without_a_measurement_differs_from_one_out_of_range():
@@ -195,8 +195,8 @@ def test_log_lines_and_topics_are_there():
     data = unpacked(recording)
     assert (data["world"], data["tracks"], data["stamps"]) == (None, [], [])
     assert data["logs"][0] == [1000, "INFO", f"{recording.logs[0].node}: {recording.logs[0].text}", None]
-    ((name, told, strip),) = data["topics"]
-    assert (name, told, len(strip), strip.count("1")) == ("/chatter", "1 Hz", replay_data.COLUMNS, 4)
+    ((name, reported, strip),) = data["topics"]
+    assert (name, reported, len(strip), strip.count("1")) == ("/chatter", "1 Hz", replay_data.COLUMNS, 4)
 
 
 def test_marks_lines_and_text_are_bounded():

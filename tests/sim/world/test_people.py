@@ -1,4 +1,4 @@
-"""People on foot: they wait for what stands in their way, and for nothing that moves."""
+"""People on foot: they wait for static obstacles, and for nothing that moves."""
 
 import math
 
@@ -108,7 +108,7 @@ def test_a_start_where_a_person_is_is_refused():
     )
 
 
-def test_a_pillar_is_no_concern_of_theirs():
-    """Whoever draws a world gives people a free way, as robots' routes are."""
+def test_a_pillar_is_no_concern_of_their_own():
+    """A world's author gives people a free path, like a robot's route."""
     simulation = Simulation(world(circles=(Circle(6, 0, 0.2),)))
     assert walked(simulation, 8)[0] == pytest.approx(9)

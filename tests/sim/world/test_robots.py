@@ -66,10 +66,10 @@ def test_robots_that_meet_both_feel_it():
     both = simulation(OtherRobot("leader", (1, 0, math.pi / 2)))
     drive(both, 3, robot=(0.3, 0))
     robot, leader = both.robots.values()
-    (mine,), (theirs,) = robot.contacts, leader.contacts
+    (mine,), (other,) = robot.contacts, leader.contacts
     assert (mine.what, mine.side) == ("robot", "front")
-    assert (theirs.what, theirs.side) == ("robot", "left")
-    assert mine.stamp == theirs.stamp
+    assert (other.what, other.side) == ("robot", "left")
+    assert mine.stamp == other.stamp
     assert robot.bumper == {"front"} and leader.bumper == {"left"}
     assert leader.pose[0] - robot.pose[0] == pytest.approx(0.2, abs=2e-3)
     drive(both, 4, robot=(-0.3, 0))

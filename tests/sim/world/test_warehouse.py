@@ -1,4 +1,4 @@
-"""Warehouses from seeds: every place can be reached, and whoever walks there has room to walk."""
+"""Warehouses from seeds: every place can be reached, and people have room to walk."""
 
 import dataclasses
 import itertools
@@ -73,7 +73,7 @@ def test_a_warehouse_has_the_requested_objects():
     assert (len(world.boxes), len(world.movable), len(world.people)) == (3, 2, 3)
     assert len(world.warehouse.pickups) == 2
     gaps = [math.dist(a[:2], b[:2]) for a in world.places().values() for b in world.places().values()]
-    assert all(gap == 0 or gap > 2 * NEAR for gap in gaps)  # nobody is at two places at once
+    assert all(gap == 0 or gap > 2 * NEAR for gap in gaps)  # no one is at two places at once
 
 
 @pytest.mark.parametrize(

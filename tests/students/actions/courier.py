@@ -182,7 +182,7 @@ class StatusOfTheResult(Courier):
 
 
 class ComparesWithTheErrorCode(Courier):
-    """error_code stays 0 when somebody cancels."""
+    """error_code stays 0 when someone cancels."""
 
     def on_result(self, future):
         self.timer.cancel()

@@ -180,7 +180,7 @@ class LogsTheFirstNumber(Customer):
         self.get_logger().info(f"progress: {msg.feedback.sequence[0]}")
 
 
-class NobodyReceivesTheResponse(Customer):
+class NoOneReceivesTheResponse(Customer):
     def send(self):
         self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.on_feedback)
 

@@ -182,7 +182,7 @@ class ForgetsTheSpeed(SquareClient):
 
 
 class OneThreadThatBlocks(BlockingClient):
-    """send_goal waits, and nobody is there to take the answer."""
+    """send_goal waits, and no one is there to take the answer."""
 
 
 class HalfTurns(SquareClient):

@@ -159,7 +159,7 @@ class ByATimer(StoppableServer):
 
 
 class OneThread(StoppableServer):
-    """The trap of this exercise: nobody can receive while it sleeps."""
+    """The trap of this exercise: no one can receive while it sleeps."""
 
 
 def main_that_spins_with_one_thread():

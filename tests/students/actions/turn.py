@@ -157,7 +157,7 @@ class NoOdometry(SpinServer):
 
 
 class SleepsWithOneThread(SpinServer):
-    """Nobody receives /odom while it sleeps, so it turns for ever."""
+    """No one receives /odom while it sleeps, so it turns forever."""
 
     async def pause(self, seconds):
         time.sleep(seconds)

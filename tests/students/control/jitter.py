@@ -116,7 +116,7 @@ class NoLatency(Meter):
 
 
 class AllInTheEnd(Meter):
-    """Right numbers, when nobody needs them any more."""
+    """Right numbers, when no one needs them any more."""
 
     def __init__(self):
         super().__init__()

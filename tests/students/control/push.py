@@ -94,7 +94,7 @@ class SignTurned(Balancer):
 
 
 class TooWeak(Balancer):
-    """Enough for a pole that nobody pushes."""
+    """Enough for a pole that no one pushes."""
 
     gains = 16.0, 2.5, 1.0, 1.5
 

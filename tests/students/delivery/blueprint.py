@@ -135,7 +135,7 @@ def decision_receives_the_lidar():
 
 
 def decision_reads_labels():
-    """The picture goes to decision, and the reader has its answer for nobody."""
+    """The picture goes to decision, and the reader has its answer for no one."""
     drawn(more=[("decision", subscribes("/image", Image, qos_profile_sensor_data))])
 
 
@@ -164,7 +164,7 @@ def one_topic_more():
     drawn(more=[("decision", publishes("/where_to", PoseStamped))])
 
 
-def nobody_says_where_to():
+def no_one_says_where_to():
     drawn(less=[("decision", "/goal_pose")])
 
 

@@ -102,7 +102,7 @@ OneNodePerSkill = Team(Control, Charger, Clerk, Perception)
 
 
 class Chaser(Control):
-    """Whoever walks near is where it wants to go."""
+    """A person nearby is where it wants to go."""
 
     def on_goal(self, goal):
         pass
@@ -131,7 +131,7 @@ ForgetsWhoWalks = Team(Unsocial, Decision, Control)
 
 
 class Repeating(Control):
-    """A timer repeats the last command for ever, however old it is."""
+    """A timer repeats the last command forever, however old it is."""
 
     def __init__(self):
         super().__init__()
@@ -150,7 +150,7 @@ DrivesBlind = Team(Perception, Decision, Repeating)
 
 
 class Sulking(Control):
-    """Stands for ever when it was without news once."""
+    """Stands forever when it was without news once."""
 
     def on_pose(self, message):
         stamp = Time.from_msg(message.header.stamp).nanoseconds

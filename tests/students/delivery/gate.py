@@ -113,7 +113,7 @@ class NoGate(Control):
         return 0.5
 
 
-class NobodyCounts(Control):
+class NoOneCounts(Control):
     """Looks at ages only."""
 
     def allowed(self, nearest):
@@ -135,7 +135,7 @@ class SlowIsEnough(Control):
 
 
 class AnyAgeWillDo(Control):
-    """Believes the last news for ever."""
+    """Believes the last news forever."""
 
     def is_old(self):
         return self.pose is None

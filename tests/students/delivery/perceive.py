@@ -79,7 +79,7 @@ class Perception(Node):
         return stamped(stamp, *robot)
 
 
-class ForgetsWhereSomebodyWalksNow(Perception):
+class ForgetsWhereSomeoneWalksNow(Perception):
     """As in the lesson: an old point near a new one goes."""
 
     def moved(self, now, strange):
@@ -140,7 +140,7 @@ class EverySixthScan(Perception):
 
 
 class DrawsDiscs(Perception):
-    """Around each point of somebody, as a person is wider than a point."""
+    """Around each point of someone, as a person is wider than a point."""
 
     def people(self):
         angles = [math.tau * part / 24 for part in range(24)]
@@ -177,7 +177,7 @@ class EverythingWalksLater(EverythingWalks):
             super().tell(stamp, robot, strange)
 
 
-class NobodyWalks(Perception):
+class NoOneWalks(Perception):
     """Boxes all of them."""
 
     def moved(self, now, strange):
@@ -185,7 +185,7 @@ class NobodyWalks(Perception):
 
 
 class ForgetsAtOnce(Perception):
-    """Who walks is told of while walking."""
+    """People are reported while they walk."""
 
     keeps = 0.5
 

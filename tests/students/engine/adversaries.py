@@ -121,7 +121,7 @@ class RedirectsStdout(Ticking):
 
     def tick(self):
         sys.stdout = io.StringIO()
-        print("nobody receives this")
+        print("no one receives this")
 
 
 class ClosesStdout(Ticking):

@@ -176,7 +176,7 @@ def goes_away():
 
 
 def gives_up():
-    """Client.call() with a timeout; the answer comes too late, and nobody is told."""
+    """Client.call() with a timeout; the answer comes too late, and it is not reported."""
     rclpy.init()
     node = Customer()
     threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
@@ -224,7 +224,7 @@ class OwnCall(Customer):
 
 
 class ForgetsPendingRequests(Customer):
-    """Clears what its client waits for: the answers come to nobody."""
+    """Clears what its client waits for: the answers come to no one."""
 
     def __init__(self):
         super().__init__()

@@ -52,7 +52,7 @@ def no_ros_words():
 
 
 def asks():
-    """Asks until nobody answers any more."""
+    """Asks until no one answers any more."""
     rclpy.init()
     node = Node("asks")
     try:

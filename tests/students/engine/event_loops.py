@@ -124,7 +124,7 @@ def polls_without_waiting():
 
 
 def waits_for_nothing():
-    """An event that nobody sets."""
+    """An event that no one sets."""
     rclpy.init()
     node = Node("waiting")
     node.create_timer(0.5, lambda: asyncio.run(asyncio.Event().wait()))

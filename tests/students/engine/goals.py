@@ -168,7 +168,7 @@ def asks_past_the_client():
     rclpy.spin(node)
 
 
-def asks_nobody():
+def asks_no_one():
     rclpy.init()
     node = Node("client")
     ActionClient(node, Fibonacci, "fibonacci").send_goal_async(Fibonacci.Goal(order=1))
@@ -252,7 +252,7 @@ class DestroysItsServerAsItCancels(Server):
 
 
 def sends_again():
-    """Sends a goal to nobody, and after two seconds one with the same id to somebody."""
+    """Sends a goal to no one, and after two seconds one with the same id to someone."""
     rclpy.init()
     node = Node("client")
     client = ActionClient(node, Fibonacci, "fibonacci")

@@ -105,7 +105,7 @@ class Lock(Hanging):
             pass
 
 
-class EventNobodySets(Hanging):
+class EventNoOneSets(Hanging):
     def tick(self):
         threading.Event().wait()
 
@@ -123,7 +123,7 @@ class JoinsItself(Hanging):
 
 
 class Pipe(Hanging):
-    """A call into the system that nobody answers."""
+    """A call into the system that no one answers."""
 
     def tick(self):
         read, write = os.pipe()
@@ -147,7 +147,7 @@ class WaitsALittle(Hanging):
 
 
 class PingPong(Hanging):
-    """Answers its own message at once, for ever."""
+    """Answers its own message at once, forever."""
 
     def __init__(self):
         super().__init__()
@@ -167,7 +167,7 @@ def swallows_ping_pong():
 
 
 class GuardCondition(Hanging):
-    """Triggers itself, for ever."""
+    """Triggers itself, forever."""
 
     def tick(self):
         self.guard = self.create_guard_condition(lambda: self.guard.trigger())
@@ -191,7 +191,7 @@ class AsksForEver(Hanging):
 
     def __init__(self):
         super().__init__()
-        self.client = self.create_client(Trigger, "nobody")
+        self.client = self.create_client(Trigger, "absent")
 
     async def tick(self):
         while True:

@@ -160,7 +160,7 @@ def own_context():
 
 
 def only_a_node():
-    """Not a main(): it makes the node and leaves the rest to whoever calls it."""
+    """Not a main(): it makes the node and leaves the rest to its caller."""
     return Counter("made")
 
 

@@ -1,4 +1,4 @@
-"""Nodes that are told of the other ends of their topics, and messages that expire."""
+"""Nodes that learn of the other ends of their topics, and messages that expire."""
 
 import time
 
@@ -27,7 +27,7 @@ SLOPPY_BY_HAND = QoSProfile(
 
 
 class Watcher(Node):
-    """Says who comes and goes at both ends: in all, now there. Without a lease nobody's life is watched."""
+    """Says who comes and goes at both ends: in all, now there. Without a lease no one's life is watched."""
 
     def __init__(self):
         super().__init__("watcher")
@@ -77,7 +77,7 @@ def leaves():
 class Says(Node):
     """Says what each event tells: its counts, and how each has changed."""
 
-    def told(self, word):
+    def report(self, word):
         def say(event):
             changes = {name: count for name, count in vars(event).items() if name.endswith("_change")}
             counts = {name: count for name, count in vars(event).items() if name not in changes}
@@ -93,7 +93,7 @@ class Speaks(Says):
 
     def __init__(self):
         super().__init__("speaks")
-        events = PublisherEventCallbacks(deadline=self.told("offered"), liveliness=self.told("lost"))
+        events = PublisherEventCallbacks(deadline=self.report("offered"), liveliness=self.report("lost"))
         self.publisher = self.create_publisher(Int32, "count", self.profile, event_callbacks=events)
         for stamp in self.speaks:
             self.once(stamp, lambda: self.publisher.publish(Int32()))
@@ -116,7 +116,7 @@ class Listens(Says):
     def __init__(self):
         super().__init__("listens")
         events = SubscriptionEventCallbacks(
-            deadline=self.told("requested"), liveliness=self.told("changed"), message_lost=self.told("missed")
+            deadline=self.report("requested"), liveliness=self.report("changed"), message_lost=self.report("missed")
         )
         self.create_subscription(Int32, "count", lambda msg: None, self.profile, event_callbacks=events)
 
@@ -146,7 +146,7 @@ class Manual(Speaks):
 
 
 class SloppyManual(Speaks):
-    """Says so where nobody receives it."""
+    """Says so where no one receives it."""
 
     profile, speaks, asserts = SLOPPY_BY_HAND, (1.5,), (1.8,)
 

@@ -120,7 +120,7 @@ def many_calls():
         node.say(f"sum {future.result().sum}")
 
 
-def nobody_answers():
+def no_one_answers():
     rclpy.init()
     node = Customer()
     node.say(f"there {node.client.wait_for_service(timeout_sec=1.5)}")
@@ -188,7 +188,7 @@ await_reentrant = awaits(ReentrantCallbackGroup)
 
 
 class Wheel(Node):
-    """Declares parameters, and is told when they change."""
+    """Declares parameters, and learns when they change."""
 
     def __init__(self):
         super().__init__("wheel")

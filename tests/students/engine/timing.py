@@ -56,7 +56,7 @@ class ResetCancelChange(Node):
 
 
 class Autostart(Node):
-    """A timer that only runs once somebody resets it."""
+    """A timer that only runs once someone resets it."""
 
     def __init__(self):
         super().__init__("timer")
@@ -321,9 +321,9 @@ def three_timeouts():
 
 
 class JumpCallbacks(Node):
-    """Asks to be told of jumps in time: by a clock that goes out of scope at once, and by two that stay.
+    """Registers for jumps in time: by a clock that goes out of scope at once, and by two that stay.
 
-    Nobody keeps the handle of the second, and the third's callback raises.
+    No one keeps the handle of the second, and the third's callback raises.
     """
 
     def __init__(self):
@@ -342,7 +342,7 @@ class JumpCallbacks(Node):
 class SwitchesTime(Node):
     """Sets `use_sim_time` at 0.5 s and at 1 s, and takes it back at 1.5 s; its clock tells before and after.
 
-    Nobody keeps the handle of the second, and the third is unregistered. The fourth asks for jumps alone.
+    No one keeps the handle of the second, and the third is unregistered. The fourth asks for jumps alone.
     """
 
     def __init__(self):
@@ -385,7 +385,7 @@ def switch_ends_a_sleep():
 
 
 def clock_of_a_time_source():
-    """What is attached to a time source goes by its switch."""
+    """What is attached to a time source follows its switch."""
     rclpy.init()
     node = Node("source")
     source, clock = TimeSource(node=node), ROSClock()

@@ -58,7 +58,7 @@ class EveryProfile(Node):
 
 
 class ForgetsEnds(Node):
-    """Destroys a latched publisher before somebody comes who would receive it, and a subscription."""
+    """Destroys a latched publisher before someone comes who would receive it, and a subscription."""
 
     def __init__(self):
         super().__init__("forgets_ends")
@@ -78,7 +78,7 @@ class ForgetsEnds(Node):
             self.out.publish(String(data="of the one that goes"))
             self.other.publish(String(data="of the one that stays"))
         elif self.steps == 2:
-            self.other.publish(String(data="to nobody"))
+            self.other.publish(String(data="to no one"))
             self.destroy_subscription(self.listener)
             self.destroy_publisher(self.out)
         elif self.steps == 3:

@@ -19,7 +19,7 @@ IMPL = Fibonacci.Impl
 
 
 class Bell(Waitable):
-    """Becomes ready when somebody rings."""
+    """Becomes ready when someone rings."""
 
     def __init__(self, node):
         super().__init__(MutuallyExclusiveCallbackGroup())

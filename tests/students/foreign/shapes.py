@@ -185,7 +185,7 @@ class Application:
 
 
 class OneOnly(Node):
-    """There is one of it, whoever asks for it."""
+    """There is only one instance of it."""
 
     _instance = None
 

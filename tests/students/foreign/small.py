@@ -19,7 +19,7 @@ def spin(node, executor=None):
 
 
 class NumberCounter(Node):
-    """Passes on what nobody sends yet."""
+    """Passes on what no one sends yet."""
 
     def __init__(self):
         super().__init__("number_counter")

@@ -1,4 +1,4 @@
-"""A question to somebody who is not there."""
+"""A question to someone who is not there."""
 
 # %% after square
 input("Points? ")

@@ -1,4 +1,4 @@
-"""HTML in which each element lies in the one before: to clean it for the feedback would take an hour."""
+"""HTML in which each element is nested in the one before: to clean it for the feedback would take an hour."""
 
 # %% after square
 from IPython.display import HTML, display

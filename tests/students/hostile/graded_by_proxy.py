@@ -1,4 +1,4 @@
-"""The test cell's exercise is told that another, easier one was asked for."""
+"""The test cell's exercise gets another, easier one."""
 
 # %% after square
 topics.square = topics.temperature

@@ -1,4 +1,4 @@
-"""Somebody outside is asked for help."""
+"""Someone outside is asked for help."""
 
 # %% after square
 import socket

@@ -1,4 +1,4 @@
-"""A node with the robot's name tells of a square that nobody drove."""
+"""A node with the robot's name publishes a square that no one drove."""
 
 # %% square
 import math

@@ -1,4 +1,4 @@
-"""The process is put to sleep for ever."""
+"""The process is put to sleep forever."""
 
 # %% after square
 import os

@@ -177,7 +177,7 @@ class LeavesOneOut(Patient):
 
 
 class GoesHome(Patient):
-    """And then back to 0, which nobody wanted."""
+    """And then back to 0, which no one wanted."""
 
     def take(self, msg):
         self.positions = [*msg.data, 0.0]

@@ -99,7 +99,7 @@ class PassesAll(Careful):
         return True
 
 
-class NanSlipsThrough(Careful):
+class NanPassesThrough(Careful):
     def can_go_to(self, position):
         return not (position < self.lower or position > self.upper)
 
@@ -122,7 +122,7 @@ class SaysNothing(Careful):
 
 
 class Raises(Careful):
-    """An error that nobody catches ends the program."""
+    """An error that no one catches ends the program."""
 
     def refuse(self, position):
         raise ValueError("beyond the limits")

@@ -139,7 +139,7 @@ class NeverEnds(JointPublisher):
 
 
 class DestroysOnly(JointPublisher):
-    """The node is gone, and the program waits for ever."""
+    """The node is gone, and the program waits forever."""
 
     def finish(self):
         self.destroy_node()
@@ -156,7 +156,7 @@ class Float32AndMisspelt(Float32Instead):
 
 
 class NeverStarts(JointPublisher):
-    """Without a timer nobody calls send()."""
+    """Without a timer no one calls send()."""
 
     def __init__(self):
         Node.__init__(self, "joint_publisher")

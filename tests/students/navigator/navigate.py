@@ -244,7 +244,7 @@ class ReplansAlways(Navigator):
 
 
 class TurnsToTheHeading(Navigator):
-    """Turns to the goal's heading at the end, as Nav2 does; nobody asks for it."""
+    """Turns to the goal's heading at the end, as Nav2 does; no one asks for it."""
 
     def execute(self, goal_handle):
         self.began = self.get_clock().now()

@@ -120,7 +120,7 @@ def wavefront_main(args=None):
 
 
 class PlansAgainAndAgain(Planner):
-    """Publishes the plan twice a second, as Nav2 does, as long as nobody sends another goal."""
+    """Publishes the plan twice a second, as Nav2 does, as long as no one sends another goal."""
 
     goal = None
 

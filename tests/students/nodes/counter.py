@@ -187,7 +187,7 @@ def main_without_spin(args=None):
 
 
 class LoopsInInit(Node):
-    """Never comes out of its __init__: nobody can spin it."""
+    """Never comes out of its __init__: no one can spin it."""
 
     def __init__(self):
         super().__init__("counter")

@@ -130,7 +130,7 @@ class ReportWithoutNumber(Heart):
 
 
 class LoopsInInit(Node):
-    """Never comes out of its __init__: nobody can spin it."""
+    """Never comes out of its __init__: no one can spin it."""
 
     def __init__(self):
         super().__init__("heart", namespace="/robot1")

@@ -62,7 +62,7 @@ class WarningLevel(Node):
         self.get_logger().warning("Hello, robot!")
 
 
-class MethodThatNobodyCalls(Node):
+class MethodThatNoOneCalls(Node):
     def __init__(self):
         super().__init__("hello")
 

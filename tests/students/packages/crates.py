@@ -80,7 +80,7 @@ ament_package()
 SPARSE = """\
 # A crate, and where it is
 string label       # as on its side
-float64 mass 1.0   # kg, if nobody weighed it
+float64 mass 1.0   # kg, if no one weighed it
 uint8\tstate
 uint8 FULL = 0x01
 uint8 EMPTY = 0

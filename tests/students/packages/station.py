@@ -67,7 +67,7 @@ ByTheClasses = Workspace(  # a design of its own
 )
 NoEntryPoints = Workspace(__name__, changed(RIGHT, SETUP, POINTS, ""))
 OnlyTheSensor = Workspace(__name__, changed(RIGHT, SETUP, ", 'display = station.display:show'", ""))
-SlipInTheName = Workspace(__name__, changed(RIGHT, SETUP, "'display =", "'dispaly ="))
+TypoInTheName = Workspace(__name__, changed(RIGHT, SETUP, "'display =", "'dispaly ="))
 DisplayHasNoMain = Workspace(__name__, changed(RIGHT, SETUP, "display:show", "display:main"))
 ModuleWithEnding = Workspace(__name__, changed(RIGHT, SETUP, "station.sensor:main", "station.sensor.py:main"))
 NoPackageInFront = Workspace(__name__, changed(RIGHT, SETUP, "station.sensor:main", "sensor:main"))

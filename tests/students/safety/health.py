@@ -97,7 +97,7 @@ class AlwaysOk(Health):
 
 
 class NeverStale(Health):
-    """The last number is good for ever."""
+    """The last number is good forever."""
 
     def is_stale(self, name):
         return name not in self.received

@@ -175,7 +175,7 @@ class NeverResets(Stop):
 
 
 class ResetsWithABrokenCable(Stop):
-    """Counts a silent button as pressed in the timer alone, and lets go until it looks again."""
+    """Counts a silent button as pressed in the timer alone, and releases until it checks again."""
 
     def is_silent(self):
         return False

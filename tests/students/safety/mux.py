@@ -96,14 +96,14 @@ class SaysBoth(Mux):
 
 
 class NeverTimesOut(Mux):
-    """What somebody said holds for ever."""
+    """What someone said holds forever."""
 
     def is_young(self, topic):
         return topic in self.received
 
 
 class OnlyTheJoystickTimesOut(Mux):
-    """The navigator's last command is sent for ever."""
+    """The navigator's last command is sent forever."""
 
     def is_young(self, topic):
         return topic in self.received and (topic == self.topics[1] or super().is_young(topic))

@@ -45,7 +45,7 @@ class Limiter(Node):
 
 
 class AllInTheEnd(Limiter):
-    """Right answers, when nobody drives any more."""
+    """Right answers, when no one drives any more."""
 
     def __init__(self):
         super().__init__()

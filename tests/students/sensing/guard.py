@@ -211,7 +211,7 @@ class AgeInMilliseconds(Guard):
 
 
 class NeverForgives(Guard):
-    """Once stopped, stopped for ever."""
+    """Once stopped, stopped forever."""
 
     stopped = False
 

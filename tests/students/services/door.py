@@ -195,7 +195,7 @@ class SpinsInTheCallback(Visitor):
 
 
 class SleepsUntilDone(Visitor):
-    """Nobody can fill the future while it sleeps."""
+    """No one can fill the future while it sleeps."""
 
     def ask(self):
         if self.client.service_is_ready():

@@ -310,7 +310,7 @@ class ResetWithoutSuccess(Manager):
 
 
 class ResetArms(Manager):
-    """It must not move before somebody arms it."""
+    """It must not move before someone arms it."""
 
     def reset(self, request, response):
         self.armed = True

@@ -32,7 +32,7 @@ class Cruiser(Node):
 
 
 class CruiserWithField(Cruiser):
-    """Keeps the value in a field, and is told when it has changed."""
+    """Keeps the value in a field, and learns when it has changed."""
 
     def __init__(self):
         super().__init__()
@@ -55,7 +55,7 @@ class CruiserWithField(Cruiser):
 
 
 class CruiserWithDescriptor(Cruiser):
-    """Lets ROS itself refuse: the range stands in the descriptor."""
+    """Lets ROS itself refuse: the range is in the descriptor."""
 
     def __init__(self):
         Node.__init__(self, "cruiser")
@@ -107,7 +107,7 @@ class ParameterMisspelt(Cruiser):
 
 
 class ParameterMisspeltEverywhere(Cruiser):
-    """Whoever sets the speed has another name for it."""
+    """The parameter has another name than the one that is set."""
 
     parameter = "sped"
 
@@ -226,7 +226,7 @@ class RaisesForBadValues(Cruiser):
 
 
 class CutsToTheLimits(Cruiser):
-    """Kind, but then nobody learns of the mistake."""
+    """Kind, but then no one learns of the mistake."""
 
     def check(self, parameters):
         return SetParametersResult(successful=True)

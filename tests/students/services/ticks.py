@@ -1,4 +1,4 @@
-"""Nodes that let somebody else add: right ones, and wrong ones named by their defect."""
+"""Nodes that let someone else add: right ones, and wrong ones named by their defect."""
 
 import time
 from functools import partial

@@ -22,7 +22,7 @@ def full(end):
 class Doctor(Node):
     """As one would write it; the wrong ones change one thing each."""
 
-    mends = True
+    fixes = True
 
     def __init__(self):
         super().__init__("doctor")
@@ -33,7 +33,7 @@ class Doctor(Node):
         self.publisher.publish(String(data=f"{msg.data}: {self.examine(msg.data)}"))
 
     def set(self, end, name, value):
-        if self.mends:
+        if self.fixes:
             client = AsyncParameterClient(self, full(end))
             if client.wait_for_services(1.0):
                 client.set_parameters([Parameter(name, value=value)])
@@ -49,7 +49,7 @@ class Doctor(Node):
         others = [name for name, _ in self.get_topic_names_and_types() if name != topic]
         near = difflib.get_close_matches(topic, others, n=1, cutoff=0.8)
         if not near:
-            return "nobody"
+            return "missing"
         self.set(display, "topic", near[0])
         return "name"
 
@@ -109,7 +109,7 @@ class ByHand(Doctor):
             if name.startswith(space) and types == ["std_msgs/msg/String"] and lonely:
                 self.set(display, "topic", name)
                 return "name"
-        return "nobody"
+        return "missing"
 
 
 def main_without_a_class():
@@ -119,7 +119,7 @@ def main_without_a_class():
 
 
 class NamesOnly(Doctor):
-    mends = False
+    fixes = False
 
 
 class TakesAnyDifference(Doctor):
@@ -141,12 +141,12 @@ class TakesAnyName(Doctor):
         return "name"
 
 
-class NobodyForEveryName(Doctor):
+class MissingForEveryName(Doctor):
     def find(self, topic, display):
-        return "nobody"
+        return "missing"
 
 
-class MendsTheWrongEnd(Doctor):
+class FixesTheWrongEnd(Doctor):
     """Sets the sensor, which has no such parameter; and tells the display to run."""
 
     def set(self, end, name, value):
@@ -161,7 +161,7 @@ class ForgetsTheNamespace(Doctor):
         near = difflib.get_close_matches(topic, others, n=1, cutoff=0.8)
         if near:
             self.set(display, "topic", near[0].rpartition("/")[2][:-1])
-        return "name" if near else "nobody"
+        return "name" if near else "missing"
 
 
 class ShorterDeadline(Doctor):
@@ -191,10 +191,10 @@ class SetsWhatIsSet(Doctor):
         super().set(end, name, same.get(name, value))
 
 
-class SilentForNobody(Doctor):
+class SilentForMissing(Doctor):
     def on_message(self, msg):
         word = self.examine(msg.data)
-        if word != "nobody":
+        if word != "missing":
             self.publisher.publish(String(data=f"{msg.data}: {word}"))
 
 
@@ -210,12 +210,12 @@ class MuteForAll(Doctor):
 
 class SaysAllWords(Doctor):
     def on_message(self, msg):
-        for word in ("name", "nobody", "reliability", "durability", "deadline", "mute"):
+        for word in ("name", "missing", "reliability", "durability", "deadline", "mute"):
             self.publisher.publish(String(data=f"{msg.data}: {word}"))
 
 
 class ChangesEverything(Doctor):
-    """Mends by chance, and breaks what was right."""
+    """Fixes by chance, and breaks what was right."""
 
     def compare(self, display, sensor):
         self.set(display, "reliability", "best_effort")
@@ -227,7 +227,7 @@ class ChangesEverything(Doctor):
 class PublishesInItsPlace(Doctor):
     """Says something on the topic, so that the display receives anything at all."""
 
-    mends = False
+    fixes = False
 
     def examine(self, topic):
         outlet = self.create_publisher(String, topic, 10)

@@ -20,7 +20,7 @@ class Reader(Node):
 
     def answer(self, msg):
         names = self.names(msg.data)
-        self.publisher.publish(String(data=", ".join(names) or "nobody"))
+        self.publisher.publish(String(data=", ".join(names) or "none"))
 
     def names(self, topic):
         return sorted({full(end) for end in self.get_publishers_info_by_topic(topic)})
@@ -95,12 +95,12 @@ class RemembersTheFirstLook(Reader):
         return self.known.setdefault(topic, super().names(topic))
 
 
-class EmptyForNobody(Reader):
+class EmptyForNone(Reader):
     def answer(self, msg):
         self.publisher.publish(String(data=", ".join(self.names(msg.data))))
 
 
-class SilentForNobody(Reader):
+class SilentForNone(Reader):
     def answer(self, msg):
         if self.names(msg.data):
             super().answer(msg)

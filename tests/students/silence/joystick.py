@@ -113,7 +113,7 @@ class DrivesOnInSilence(Driver):
 
 
 class NoCallback(Driver):
-    """Asks for a deadline, and nobody is told."""
+    """Asks for a deadline, and it is not reported."""
 
     def listen(self):
         qos = QoSProfile(depth=1, deadline=Duration(seconds=self.deadline))

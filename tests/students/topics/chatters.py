@@ -138,7 +138,7 @@ class ForgetsBool(Listener):
 
 
 class CallbackOfTwoArguments(Listener):
-    """Nobody passes the second one."""
+    """No one passes the second one."""
 
     def __init__(self):
         Node.__init__(self, "chatter_listener")

@@ -50,7 +50,7 @@ def _settings(course: Path) -> HubSettings:
     file = write_template(course)
     settings = read_settings(file)
     if not (settings.students or settings.teachers):
-        raise CourseError(f"{FILE} names nobody: enter teachers and students, and run `make hub` again")
+        raise CourseError(f"{FILE} names no users: enter teachers and students, and run `make hub` again")
     return settings
 
 

@@ -104,7 +104,7 @@ class HubSettings:
         return self.folder / "certificates" / user
 
     def domain(self, user: str) -> int:
-        """The ROS domain of a user: with up to 101 students and teachers, of nobody else."""
+        """The ROS domain of a user: with up to 101 students and teachers, no other user has it."""
         users = sorted({*self.students, *self.teachers})
         return 1 + users.index(user) % MAX_DOMAIN if user in users else 0
 

@@ -36,7 +36,7 @@ def weaknesses() -> list[str]:
     if not lacking:
         return []
     return [
-        f"this machine lets nobody limit {', '.join(lacking)} (control groups in {user_limits.ROOT}): "
+        f"this machine doesn't let users limit {', '.join(lacking)} (control groups in {user_limits.ROOT}): "
         "one user can take all of it; on a server use a system with systemd"
     ]
 

@@ -2,7 +2,7 @@
 
     exchange/courses/COURSE/     nbgrader's exchange as teachers use it; students read what is released there
     exchange/students/COURSE/STUDENT/
-                                 nbgrader's exchange as one student uses it: nobody else enters it but the
+                                 nbgrader's exchange as one student uses it: no other user enters it but the
                                  course's grader, who owns it; what is released is a link into the first
     courses/COURSE/              the home of the grader, with the course and its solutions
     run/USER/, certificates/USER/, hub/

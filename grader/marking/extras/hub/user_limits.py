@@ -19,7 +19,7 @@ GIGABYTE = 10**9
 
 
 def missing_controllers(root: Path = ROOT) -> list[str]:
-    """The controllers that this machine lets nobody use."""
+    """The controllers that this machine lets no user have."""
     if _is_unified(root):
         present = (root / "cgroup.controllers").read_text(encoding="utf-8").split()
         return [name for name in CONTROLLERS if name not in present or not os.access(root, os.W_OK)]

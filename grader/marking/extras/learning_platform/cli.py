@@ -28,7 +28,7 @@ TOTAL = "Course total"
 
 
 def grades(arguments: list[str] | None = None) -> int:
-    """Fill in grades in the course's folder; returns the exit status: 1 where somebody is left out."""
+    """Fill in grades in the course's folder; returns the exit status: 1 where a student is left out."""
     form = _grades_parser()
     options = form.parse_args(arguments)
     if bool(options.assignment) == options.total:
@@ -46,7 +46,7 @@ def grades(arguments: list[str] | None = None) -> int:
 
 
 def collect(arguments: list[str] | None = None) -> int:
-    """Collect an archive in the course's folder; returns the exit status: 1 where somebody is left out."""
+    """Collect an archive in the course's folder; returns the exit status: 1 where a student is left out."""
     options = _collect_parser().parse_args(arguments)
     try:
         course = Course(Path.cwd())

@@ -30,7 +30,7 @@ class NamedUpload:
 
 
 def read_name(path: str, notebooks: Collection[str]) -> NamedUpload | None:
-    """Read the path of a file; None if it names nobody. notebooks: of the release, with .ipynb."""
+    """Read the path of a file; None if it names no student. notebooks: of the release, with .ipynb."""
     return _moodle(path) or _canvas(path, notebooks) or _plain(path, notebooks)
 
 

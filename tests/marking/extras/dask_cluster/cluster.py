@@ -24,7 +24,7 @@ class Cluster:
         self.address = until(self._published_address, "the scheduler")
 
     def worker(self, **environment: str) -> subprocess.Popen:
-        """Start a worker; nobody starts it again."""
+        """Start a worker; no one starts it again."""
         place = str(self.folder / "dask")
         options = ("--no-nanny", "--nthreads", "1", "--local-directory", place)
         return self._start("dask_worker", self.address, *options, **environment)
@@ -38,7 +38,7 @@ class Cluster:
             client.wait_for_workers(number, timeout=PATIENCE)
 
     def children(self) -> list[psutil.Process]:
-        """The processes that the workers have started, with theirs."""
+        """The processes that the workers have started, with their children."""
         return [child for pid in self._pids().values() for child in psutil.Process(pid).children(True)]
 
     def kill(self, address: str) -> None:
@@ -49,7 +49,7 @@ class Cluster:
         process.wait()
 
     def close(self) -> None:
-        # The scheduler last: a worker that is told to end by both at once may hang.
+        # The scheduler last: a worker that gets a signal from both at once may hang.
         for some in (self.processes[1:], self.processes[:1]):
             for process in some:
                 process.terminate()

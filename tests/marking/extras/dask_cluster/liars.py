@@ -16,7 +16,7 @@ def number(how: RunSettings, task: MarkingTask) -> tuple[str, object]:
 
 
 def other(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
-    return _marked(task, student="somebody else")
+    return _marked(task, student="someone else")
 
 
 def crash(how: RunSettings, task: MarkingTask) -> tuple[str, str]:

@@ -122,7 +122,7 @@ def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(clus
         cluster.scheduler.kill()
         output = f"the scheduler at {cluster.address} has not answered for 1 s"
         assert str(result.exception()) == output
-    cluster.processes[1].kill()  # a worker that is told to end waits for its cell
+    cluster.processes[1].kill()  # a worker that gets a signal waits for its cell
 
 
 @pytest.fixture
@@ -153,9 +153,9 @@ def test_workers_that_cant_mark_are_named_and_left_out(cluster, tasks, another, 
     with DaskPool(cluster.address, **sandboxed) as pool, pytest.raises(DaskPoolError) as error:
         pool._wait_s = 1.0  # once it is connected
         next(pool.mark(tasks))
-    nobody = f"no worker of the scheduler at {cluster.address} could mark anything for 1 s"
+    absent = f"no worker of the scheduler at {cluster.address} could mark anything for 1 s"
     start = f"`.venv/bin/dask worker {cluster.address} --nworkers -1 --nthreads 1` starts some"
-    assert str(error.value) == f"{nobody}: {start}"
+    assert str(error.value) == f"{absent}: {start}"
     lines = sorted(re.sub(r"tcp://\S+|\b[0-9a-f]{12}\b", "*", capsys.readouterr().err).splitlines())
     assert lines == [
         "The worker * is left out: Marking runs students' code in a sandbox made by bubblewrap, and this "

@@ -79,7 +79,7 @@ def test_each_user_has_a_domain_of_their_own_that_ros_can_use(file):
     settings = read_settings(file)
     users = [*settings.students, *settings.teachers]
     assert sorted(map(settings.domain, users)) == list(range(1, 102))
-    assert settings.domain("somebody-else") == 0
+    assert settings.domain("someone-else") == 0
 
 
 def test_paths_are_those_of_the_folder(file):

@@ -68,7 +68,7 @@ def test_each_attempt_is_taken(inboxes):
     assert set(inboxes.taken()) == names
 
 
-def test_nobody_hands_in_for_another(inboxes):
+def test_no_one_hands_in_for_another(inboxes):
     folder = inboxes.submit("bob", author="alice")
     assert inboxes.take() == [
         f"bob: `{folder.name}` is left out. It is in the inbox of bob; hand in under your own name."
@@ -135,7 +135,7 @@ def test_a_link_in_place_of_a_submission_is_not_followed(inboxes, tmp_path):
     assert set(inboxes.taken()) == {real.name}
 
 
-def test_a_link_in_place_of_an_inbox_leads_to_nobody_elses_submission(inboxes):
+def test_a_link_in_place_of_an_inbox_leads_to_no_one_elses_submission(inboxes):
     real = inboxes.submit("bob")
     inboxes.of("alice").rmdir()
     inboxes.of("alice").symlink_to(inboxes.of("bob"))

@@ -97,7 +97,7 @@ def test_a_certificate_that_cannot_be_read_is_named(complete):
 def test_a_machine_that_limits_nothing_is_a_weakness_and_no_obstacle(complete):
     complete.setattr(user_limits, "missing_controllers", lambda: ["memory", "cpu"])
     assert machine.weaknesses() == [
-        "this machine lets nobody limit memory, cpu (control groups in /sys/fs/cgroup): one user can take all "
+        "this machine doesn't let users limit memory, cpu (control groups in /sys/fs/cgroup): one user can take all "
         "of it; on a server use a system with systemd"
     ]
 
@@ -140,7 +140,7 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_the_first_call_writes_the_settings_and_asks_for_names(course, capsys):
     assert cli.main(["--check"]) == 1
     assert capsys.readouterr().err == (
-        "No hub: class/hub.toml names nobody: enter teachers and students, and run `make hub` again.\n"
+        "No hub: class/hub.toml names no users: enter teachers and students, and run `make hub` again.\n"
     )
     assert (course / "class" / "hub.toml").exists()
 

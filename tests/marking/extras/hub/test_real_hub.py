@@ -54,12 +54,12 @@ def test_a_wrong_password_and_a_user_who_is_not_in_the_settings_are_refused(hub)
 
 def test_a_student_s_files_are_in_the_home_and_the_course_is_read_only(hub, students):
     kernel = students[BOB].start_kernel("course/01_nodes/lesson.ipynb")
-    told = kernel.run(
+    reported = kernel.run(
         "import os, sim; print(os.getcwd(), oct(os.umask(0o77)), os.access(os.path.dirname(sim.__file__), os.W_OK),"
         "os.environ['ROS_DOMAIN_ID'])"
     )
     kernel.stop()
-    assert told["text"].split() == [f"/home/{BOB}/ros2-course/course/01_nodes", "0o77", "False", "2"]
+    assert reported["text"].split() == [f"/home/{BOB}/ros2-course/course/01_nodes", "0o77", "False", "2"]
 
 
 def test_a_class_hands_in_is_marked_and_each_reads_only_the_own_feedback(marked, students):
@@ -137,9 +137,9 @@ def test_the_installation_is_written_by_root_only(hub, students):
         "        path = os.path.join(place, name)\n"
         "        if os.access(path, os.W_OK) and not os.path.islink(path): print(path)"
     )
-    told = kernel.run(program.replace("FOLDER", repr(str(hub.settings.installation))))
+    reported = kernel.run(program.replace("FOLDER", repr(str(hub.settings.installation))))
     kernel.stop()
-    assert (told["status"], told["text"]) == ("ok", "")
+    assert (reported["status"], reported["text"]) == ("ok", "")
 
 
 def test_servers_of_others_are_closed_with_the_own_login_and_with_the_own_token(hub, students):
@@ -164,15 +164,15 @@ def test_a_kernel_that_exhausts_memory_ends_and_the_server_and_the_others_go_on(
     other.stop()
 
 
-def test_processes_end_at_the_limit_and_others_start_theirs(hub, students):
+def test_processes_end_at_the_limit_and_others_start_their_own(hub, students):
     kernel = students[CAROL].start_kernel(NOTEBOOK)
-    told = kernel.run(
+    reported = kernel.run(
         "import subprocess\nstarted = []\ntry:\n"
         "    for number in range(1000): started.append(subprocess.Popen(['sleep', '60']))\n"
         "except OSError as error: print(type(error).__name__, len(started) < 300)\n"
         "for each in started: each.kill()"
     )
-    assert told["text"] == "BlockingIOError True\n"
+    assert reported["text"] == "BlockingIOError True\n"
     kernel.stop()
 
 

@@ -1,6 +1,6 @@
 """Runs in the kernel of one student of a hub, and tries to reach what belongs to others: prints what happened.
 
-PLACES is a list of (kind, path) that the thief was told; without that, paths would have to be guessed. Nothing of
+PLACES is a list of (kind, path) that the thief was given; without that, paths would have to be guessed. Nothing of
 this may work: each line of the answer is "kind: attempt: how it ended".
 """
 import glob
@@ -87,7 +87,7 @@ for process in glob.glob("/proc/[0-9]*"):
         attempt("process", "environment", lambda: open(f"{process}/environ").read())
         attempt("process", "kill", lambda: os.kill(int(process.split("/")[-1]), 9))
 
-# A kernel that listened on a port would send its outputs to whoever subscribes.
+# A kernel that listened on a port would send its outputs to every subscriber.
 context, sockets = zmq.Context(), []
 for port in PORTS:
     for kind in (zmq.SUB, zmq.PULL):

@@ -284,9 +284,9 @@ def test_without_marks_nothing_is_filled_in(course, say):
     with Gradebook(course.database, course.name) as book:
         for student in ("anna", "bob", "eve"):
             book.remove_submission(ASSIGNMENT, student)
-    told = f"the gradebook has no marks of {ASSIGNMENT}: run `python -m grader mark ASSIGNMENT` first"
+    reported = f"the gradebook has no marks of {ASSIGNMENT}: run `python -m grader mark ASSIGNMENT` first"
     answer = say("grades", ASSIGNMENT, "--moodle", "sheet.csv")
-    assert answer == (1, "", f"Nothing was filled in: {told}.\n")
+    assert answer == (1, "", f"Nothing was filled in: {reported}.\n")
 
 
 @pytest.mark.parametrize(

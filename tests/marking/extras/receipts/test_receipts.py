@@ -33,8 +33,8 @@ def test_every_mark_gets_a_signed_statement_with_what_it_was_given_for(course, i
     monkeypatch.setattr("grader.marking.extras.receipts.issue.date", ADay)
     status, output, wrong = issue()
     where = course.receipts()
-    told = f"3 receipts in {where}. Keep .signing-key to yourself, and a copy of it.\n"
-    assert (status, output, wrong) == (0, told, "")
+    reported = f"3 receipts in {where}. Keep .signing-key to yourself, and a copy of it.\n"
+    assert (status, output, wrong) == (0, reported, "")
     signed = json.loads((where / "anna" / f"{ASSIGNMENT}.json").read_text())
     assert (signed["payloadType"], len(signed["signatures"])) == ("application/vnd.in-toto+json", 1)
     found = statement(where / "anna" / f"{ASSIGNMENT}.json")

@@ -42,8 +42,8 @@ def confirm(elsewhere, say):
 
 def test_a_third_party_confirms_a_receipt_and_a_page(elsewhere, confirm):
     day = format_day(json.loads(payload(read(elsewhere)))["predicate"]["issued"])
-    told = f"Confirmed: Anna Meier (anna) has 15 of 15 points in {ASSIGNMENT}, says {ISSUER} on {day}.\n"
-    assert confirm() == confirm(name="anna.html") == (0, told, "")
+    reported = f"Confirmed: Anna Meier (anna) has 15 of 15 points in {ASSIGNMENT}, says {ISSUER} on {day}.\n"
+    assert confirm() == confirm(name="anna.html") == (0, reported, "")
 
 
 def read(folder) -> Signed:
@@ -162,21 +162,21 @@ def test_a_signed_text_of_another_kind_is_no_receipt(course, elsewhere, confirm,
     sign_as_instructor(course, {}, elsewhere)
     monkeypatch.undo()
     monkeypatch.chdir(elsewhere)
-    told = "what was signed is no in-toto statement, but 'text/plain'"
-    assert confirm() == (1, "", f"Not confirmed: {told}.\n")
+    reported = "what was signed is no in-toto statement, but 'text/plain'"
+    assert confirm() == (1, "", f"Not confirmed: {reported}.\n")
 
 
 def test_a_key_or_a_file_that_is_not_there_is_named(elsewhere, say, monkeypatch):
     key = "expected the instructor's public key, saw"
     name = f"{ASSIGNMENT}.json"
-    told = f"Not confirmed: {key} class/receipts/public.pem (No such file or directory).\n"
-    assert say("verify", name) == (1, "", told)
+    reported = f"Not confirmed: {key} class/receipts/public.pem (No such file or directory).\n"
+    assert say("verify", name) == (1, "", reported)
     assert say("verify", name, "--key", name) == (1, "", f"Not confirmed: {key} {name}, which is none.\n")
-    told = "Not confirmed: expected a receipt, saw no (No such file or directory).\n"
-    assert say("verify", "no", "--key", "public.pem") == (1, "", told)
+    reported = "Not confirmed: expected a receipt, saw no (No such file or directory).\n"
+    assert say("verify", "no", "--key", "public.pem") == (1, "", reported)
     (elsewhere / "bytes").write_bytes(b"\xff")
-    told = "Not confirmed: expected a receipt, saw bytes (it is no text).\n"
-    assert say("verify", "bytes", "--key", "public.pem") == (1, "", told)
+    reported = "Not confirmed: expected a receipt, saw bytes (it is no text).\n"
+    assert say("verify", "bytes", "--key", "public.pem") == (1, "", reported)
     monkeypatch.setattr(cli, "find_spec", lambda name: None)
     assert say("verify", name) == (1, "", f"Not confirmed: {cli.LIBRARY}.\n")
 
@@ -269,11 +269,11 @@ def test_where_marking_again_differs_is_listed(course, again, monkeypatch, chang
 def test_another_submission_or_release_is_refused(course, again):
     submit(course, "anna", line="Line = 3")
     folder = course.submitted("anna", ASSIGNMENT)
-    told = f"{folder} is not the submission that was marked: its digest is another one"
-    assert again(SeededPool(course)) == (1, "", f"Not confirmed: {told}.\n")
+    reported = f"{folder} is not the submission that was marked: its digest is another one"
+    assert again(SeededPool(course)) == (1, "", f"Not confirmed: {reported}.\n")
     (course.release(ASSIGNMENT) / "more.txt").write_text("more")
-    told = f"{course.release(ASSIGNMENT)} is not the release that was marked: its digest is another one"
-    assert again(SeededPool(course)) == (1, "", f"Not confirmed: {told}.\n")
+    reported = f"{course.release(ASSIGNMENT)} is not the release that was marked: its digest is another one"
+    assert again(SeededPool(course)) == (1, "", f"Not confirmed: {reported}.\n")
 
 
 def test_other_versions_are_named(course, elsewhere, again):
@@ -293,8 +293,8 @@ def test_a_page_of_several_is_not_marked_again(course, confirm, elsewhere, say, 
     with pytest.raises(SystemExit, match="2"):
         confirm("--submission", "x")
     monkeypatch.setattr(cli, "_confirmed", lambda path, key: [])
-    told = "Not confirmed: expected one receipt to mark again, saw a page of several.\n"
-    assert confirm("--submission", "x", "--release", "y") == (1, "", told)
+    reported = "Not confirmed: expected one receipt to mark again, saw a page of several.\n"
+    assert confirm("--submission", "x", "--release", "y") == (1, "", reported)
 
 
 def test_revealed_seeds_are_a_secret_that_gives_them():

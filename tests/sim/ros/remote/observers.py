@@ -97,7 +97,7 @@ class SloppyTalker(Node):
     def __init__(self):
         super().__init__("sloppy_talker")
         events = PublisherEventCallbacks(
-            incompatible_qos=lambda event: self.get_logger().info("nobody can receive")
+            incompatible_qos=lambda event: self.get_logger().info("no one can receive")
         )
         self.out = self.create_publisher(String, "chat", BEST_EFFORT, event_callbacks=events)
         self.create_timer(0.2, lambda: self.out.publish(String(data="word")))

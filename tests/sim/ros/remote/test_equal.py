@@ -30,7 +30,7 @@ ALONE = {
         "spins_nothing", "starts_a_run", "wrong_qos", "bad_topic_name", "needs_argument",
     ),
     "services": (
-        "late_adder", "until_future_complete", "done_callback", "many_calls", "nobody_answers",
+        "late_adder", "until_future_complete", "done_callback", "many_calls", "no_one_answers",
         "spin_in_a_callback", "parameter_services",
     ),
     "callers": (
@@ -38,12 +38,12 @@ ALONE = {
         "OwnCall",
     ),
     "actions": ("waiting_client", "blocking_client", "late_server"),
-    "goals": ("two_servers", "sends_text", "asks_nobody", "sends_again"),
+    "goals": ("two_servers", "sends_text", "asks_no_one", "sends_again"),
     "names": ("launches",),
     "topics": ("SaysItAtOnce", "SaysItAtOnceAndLatches"),
     "launched": ("twice",),
     "output": ("logs_at_every_level", "logs_debug_lines", "odd_texts"),
-    "hangs": ("PingPong", "ZeroTimer", "EventNobodySets", "JoinsItself", "GuardCondition"),
+    "hangs": ("PingPong", "ZeroTimer", "EventNoOneSets", "JoinsItself", "GuardCondition"),
 }  # fmt: skip
 # The course's program in this process, the student's in the other one.
 TOGETHER = [
@@ -117,27 +117,27 @@ def test_a_program_in_the_other_process_leaves_an_equal_recording(follower, modu
     assert evidence(there) == evidence(run(found(module, name), seconds=6, quiet=True))
 
 
-@pytest.mark.parametrize(("ours", "theirs"), [*TOGETHER, *TOO_EARLY])
-def test_two_programs_that_communicate_leave_an_equal_recording(follower, ours, theirs):
-    with follower.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
-        there = run(found(*ours), remote, seconds=8, quiet=True)
-    assert evidence(there) == evidence(run(found(*ours), found(*theirs), seconds=8, quiet=True))
+@pytest.mark.parametrize(("own", "other"), [*TOGETHER, *TOO_EARLY])
+def test_two_programs_that_communicate_leave_an_equal_recording(follower, own, other):
+    with follower.serving(f"{ENGINE}.{other[0]}", other[1]) as remote:
+        there = run(found(*own), remote, seconds=8, quiet=True)
+    assert evidence(there) == evidence(run(found(*own), found(*other), seconds=8, quiet=True))
 
 
-@pytest.mark.parametrize(("ours", "theirs"), LOOKING)
-def test_topics_with_all_kinds_of_qos_are_equal(follower, ours, theirs):
-    with follower.serving(OBSERVERS, theirs) as remote:
-        there = run(getattr(observers, ours), remote, seconds=5.5, quiet=True)
-    here = run(getattr(observers, ours), getattr(observers, theirs), seconds=5.5, quiet=True)
+@pytest.mark.parametrize(("own", "other"), LOOKING)
+def test_topics_with_all_kinds_of_qos_are_equal(follower, own, other):
+    with follower.serving(OBSERVERS, other) as remote:
+        there = run(getattr(observers, own), remote, seconds=5.5, quiet=True)
+    here = run(getattr(observers, own), getattr(observers, other), seconds=5.5, quiet=True)
     assert evidence(there) == evidence(here)
     assert there.logs or there.messages("/answer")
 
 
 def test_a_node_in_the_other_process_sees_the_same_graph(follower):
-    ours = found("services", "Adder"), found("actions", "Server"), observers.PickyListener
+    own = found("services", "Adder"), found("actions", "Server"), observers.PickyListener
     with follower.serving(OBSERVERS, "Observer") as remote:
-        there = run(*ours, remote, world="room", seconds=2, quiet=True)
-    here = run(*ours, observers.Observer, world="room", seconds=2, quiet=True)
+        there = run(*own, remote, world="room", seconds=2, quiet=True)
+    here = run(*own, observers.Observer, world="room", seconds=2, quiet=True)
     assert [line.text for line in there.logs] == [line.text for line in here.logs]
 
 
@@ -234,11 +234,11 @@ def test_another_order_leaves_an_equal_recording(follower, module, name, order):
 
 
 @pytest.mark.parametrize("order", ["1", "2", "any-4", "host-6"])
-@pytest.mark.parametrize(("ours", "theirs"), [TOGETHER[1], TOGETHER[9], TOGETHER[14], *TOO_EARLY])
-def test_two_programs_leave_an_equal_recording_in_another_order(follower, ours, theirs, order):
-    with follower.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
-        there = run(remote, companions=[found(*ours)], seconds=6, quiet=True, order=order)
-    here = run(found(*theirs), companions=[found(*ours)], seconds=6, quiet=True, order=order)
+@pytest.mark.parametrize(("own", "other"), [TOGETHER[1], TOGETHER[9], TOGETHER[14], *TOO_EARLY])
+def test_two_programs_leave_an_equal_recording_in_another_order(follower, own, other, order):
+    with follower.serving(f"{ENGINE}.{other[0]}", other[1]) as remote:
+        there = run(remote, companions=[found(*own)], seconds=6, quiet=True, order=order)
+    here = run(found(*other), companions=[found(*own)], seconds=6, quiet=True, order=order)
     assert in_any_order(there) == in_any_order(here)
 
 

@@ -36,11 +36,11 @@ EVENTS = [
 ]
 
 
-def same(follower, network, ours, module, name, theirs):
+def same(follower, network, own, module, name, other):
     settings = {"seconds": 8, "quiet": True, "network": network}
     with follower.serving(module, name) as remote:
-        there = run(Process(ours, host="robot"), remote, **settings)
-    here = run(Process(ours, host="robot"), theirs, **settings)
+        there = run(Process(own, host="robot"), remote, **settings)
+    here = run(Process(own, host="robot"), other, **settings)
     assert ordered(there) == ordered(here)
     return here
 
@@ -61,13 +61,13 @@ def test_services_and_actions(follower, network, pair):
 @pytest.mark.parametrize("network", [SLOW, RADIO], ids=["slow", "radio"])
 @pytest.mark.parametrize("pair", LOOKING, ids="-".join)
 def test_topics(follower, network, pair):
-    ours, theirs = pair
-    same(follower, network, getattr(observers, ours), OBSERVERS, theirs, getattr(observers, theirs))
+    own, other = pair
+    same(follower, network, getattr(observers, own), OBSERVERS, other, getattr(observers, other))
 
 
 @pytest.mark.parametrize("network", [None, SLOW, RADIO], ids=["none", "slow", "radio"])
 @pytest.mark.parametrize("pair", EVENTS, ids="-".join)
 def test_deadlines_liveliness_and_losses(follower, network, pair):
-    ours, theirs = (found("qos_events", name) for name in pair)
-    recording = same(follower, network, ours, f"{ENGINE}.qos_events", pair[1], theirs)
+    own, other = (found("qos_events", name) for name in pair)
+    recording = same(follower, network, own, f"{ENGINE}.qos_events", pair[1], other)
     assert network is not RADIO or recording.logs

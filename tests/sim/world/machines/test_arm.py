@@ -182,7 +182,7 @@ def test_hold_brakes_and_stays():
 
 
 def orders(rng, joint):
-    """An endless mix of what an arm can be told, most of it more than its joints can do."""
+    """An endless mix of commands for an arm, most of it more than its joints can do."""
 
     def angle():
         return rng.uniform(joint.lower, joint.upper)

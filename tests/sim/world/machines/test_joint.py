@@ -44,10 +44,10 @@ def test_the_profile_is_a_trapezoid():
     assert profile[2.02] == (1.5, 0.0)
 
 
-@pytest.mark.parametrize(("told", "goes"), [(9.0, 1.5), (-9.0, -1.5), (1e300, 1.5)])
-def test_a_command_beyond_the_limits_is_clamped(told, goes):
+@pytest.mark.parametrize(("reported", "goes"), [(9.0, 1.5), (-9.0, -1.5), (1e300, 1.5)])
+def test_a_command_beyond_the_limits_is_clamped(reported, goes):
     joint = alone(MODEL)
-    joint.command(told)
+    joint.command(reported)
     joint.advance(4)
     assert (joint.position, joint.velocity) == (goes, 0.0)
 

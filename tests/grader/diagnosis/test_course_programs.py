@@ -1,4 +1,4 @@
-"""What is broken between programs of ours, or by tools, is no flaw of the student's."""
+"""What is broken between programs of the course, or by tools, is no flaw of the student's."""
 
 import pytest
 from rclpy.node import Node
@@ -23,7 +23,7 @@ class Bystander(Node):
 
 
 @pytest.mark.parametrize("fault", BROKEN)
-def test_what_is_broken_between_programs_of_ours_is_not_explained(fault):
+def test_what_is_broken_between_programs_of_the_course_is_not_explained(fault):
     assert explain(run(Bystander, companions=BROKEN[fault], seconds=2, quiet=True)) == ""
     talker, listener = BROKEN[fault]
     assert explain(run(listener, companions=[talker], seconds=2, quiet=True)) != ""
