@@ -116,7 +116,9 @@ class Listens(Says):
     def __init__(self):
         super().__init__("listens")
         events = SubscriptionEventCallbacks(
-            deadline=self.report("requested"), liveliness=self.report("changed"), message_lost=self.report("missed")
+            deadline=self.report("requested"),
+            liveliness=self.report("changed"),
+            message_lost=self.report("missed"),
         )
         self.create_subscription(Int32, "count", lambda msg: None, self.profile, event_callbacks=events)
 
