@@ -29,7 +29,7 @@ _USED = re.compile(r"^\s*(\w+)/\w+", re.M)
 
 @dataclass(frozen=True)
 class Interfaces:
-    """An interface package that students write, and that a package of theirs uses in another exercise.
+    """An interface package that students write, and that their package of another exercise uses.
 
     definitions: the right ones, by path below the package, such as "msg/Crate.msg". The course's programs
     are built with these. types: names, such as "msg/Crate", with their type hashes, which are equal for equal
