@@ -26,7 +26,7 @@ Command = dict[str, Any]
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PANEL = "application/vnd.ros2-course.robot+json"  # handled by jupyter/labextensions
 MAX_TOPIC_LENGTH = 300  # characters
-MOST_METRES = 1000.0  # of a point in the picture
+MOST_METERS = 1000.0  # of a point in the picture
 SPEEDS = (0.01, 1000.0)  # range of simulated seconds per second that a page may request
 
 
@@ -139,7 +139,7 @@ def parse_command(content: Any) -> Command | None:
             return {name: [float(forward), float(left)]}
         return None
     is_pair = isinstance(value, list) and len(value) == 2
-    if name == "point" and is_pair and all(_between(part, -MOST_METRES, MOST_METRES) for part in value):
+    if name == "point" and is_pair and all(_between(part, -MOST_METERS, MOST_METERS) for part in value):
         return {name: [float(part) for part in value]}
     return None
 

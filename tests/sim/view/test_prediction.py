@@ -6,11 +6,11 @@ from sim.view import predict, prediction
 from sim.view.prediction import FILE
 
 QUESTION = "How far does it come?"
-ANSWERS = {"a": "to the wall", "b": "half a metre", "c": "nowhere"}
+ANSWERS = {"a": "to the wall", "b": "half a meter", "c": "nowhere"}
 WIDGET = "application/vnd.jupyter.widget-view+json"
 CHOSEN = (
     f"**Predict:** {QUESTION}\n\n"
-    "- **a** to the wall\n- **b** half a metre ← **your prediction**\n- **c** nowhere"
+    "- **a** to the wall\n- **b** half a meter ← **your prediction**\n- **c** nowhere"
 )
 
 
@@ -55,7 +55,7 @@ def test_a_question_is_buttons_and_markdown_and_nothing_is_saved(output, folder)
     predict(QUESTION, **ANSWERS)
     (shown,) = output.shown
     assert WIDGET in shown
-    text = f"**Predict:** {QUESTION}\n\n- **a** to the wall\n- **b** half a metre\n- **c** nowhere"
+    text = f"**Predict:** {QUESTION}\n\n- **a** to the wall\n- **b** half a meter\n- **c** nowhere"
     assert shown["text/markdown"] == shown["text/plain"] == text
     assert not (folder / FILE).exists()
 
@@ -80,7 +80,7 @@ def test_what_a_page_sends_that_is_no_answer_is_ignored(output, folder, content)
     [
         (None, "**What happened:** nowhere (**c**). You made no prediction."),
         ("c", "**What happened:** nowhere (**c**). You predicted that."),
-        ("b", "**What happened:** nowhere (**c**). You predicted: half a metre (**b**)."),
+        ("b", "**What happened:** nowhere (**c**). You predicted: half a meter (**b**)."),
     ],
 )
 def test_the_outcome_is_compared_with_the_prediction(output, folder, letter, text):
