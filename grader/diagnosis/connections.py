@@ -34,7 +34,7 @@ def _fix(publisher: Endpoint, subscription: Endpoint, found: tuple[str, str, str
     policy, offered, wanted = found
     is_time = wanted.endswith(" s")
     better = f"offer {f'{policy} {wanted} or less' if is_time else wanted}"
-    weaker = f"ask for {f'{offered} or more' if is_time and offered else offered or f'no {policy}'}"
+    weaker = f"request {f'{offered} or more' if is_time and offered else offered or f'no {policy}'}"
     ends = [(publisher, better), (subscription, weaker)]
     return ", or ".join(change for end, change in ends if not end.from_course)
 

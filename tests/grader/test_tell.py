@@ -46,7 +46,7 @@ def test_a_run_that_hangs(capsys):
 def test_a_run_without_an_error_in_which_something_is_wrong(capsys):
     tell(run(misfits.BestEffortTalker, misfits.Listener, seconds=3, quiet=True))
     assert capsys.readouterr().out == (
-        "On /chatter the QoS doesn't fit: /talker publishes with reliability best_effort, /listener asks for\n"
+        "On /chatter the QoS doesn't fit: /talker publishes with reliability best_effort, /listener requests\n"
         "reliable, so nothing arrives. An offer has to be as good as the request, or better: offer reliable,\n"
-        "or ask for best_effort.\n"
+        "or request best_effort.\n"
     )

@@ -67,7 +67,7 @@ def test_a_package_names_what_its_modules_and_launch_files_import_of_ros():
 def test_a_package_installs_itself_what_colcon_would_add(line, pair, what):
     miss = missed(installs_by_itself, packaged(output=f"Starting >>> patrol\n{line}\nFinished <<< patrol\n"))
     assert miss.expected == f"{pair} in data_files"
-    assert miss.saw == f"none: colcon did it in its place, and says that it won't forever ({what})"
+    assert miss.saw == f"none: colcon installed it instead, and warns that it won't always ({what})"
     assert miss.hint == "Add this pair to data_files in setup.py, with a comma after it."
 
 

@@ -24,25 +24,25 @@ CAUSES = {
     "slash the node's namespace is put before it.",
     (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS doesn't fit: /talker publishes with "
     "reliability best_effort, /listener requests reliable, so nothing arrives. An offer has to be as good as the "
-    "request, or better: offer reliable, or ask for best_effort.",
+    "request, or better: offer reliable, or request best_effort.",
     (
         misfits.Talker,
         misfits.LatchedListener,
     ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
     "volatile, /listener requests transient_local, so nothing arrives. An offer has to be as good as the request, or "
-    "better: offer transient_local, or ask for volatile.",
+    "better: offer transient_local, or request volatile.",
     (
         misfits.Talker,
         misfits.ImpatientListener,
     ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener requests 0.5 s, so nothing "
-    "arrives. An offer has to be as good as the request, or better: offer deadline 0.5 s or less, or ask for no "
+    "arrives. An offer has to be as good as the request, or better: offer deadline 0.5 s or less, or request no "
     "deadline.",
     (
         misfits.Talker,
         misfits.ListenerForTheLiving,
     ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener requests "
     "manual_by_topic, so nothing arrives. An offer has to be as good as the request, or better: offer "
-    "manual_by_topic, or ask for automatic.",
+    "manual_by_topic, or request automatic.",
     (
         misfits.SleepyTalker,
     ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "
