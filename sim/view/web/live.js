@@ -119,14 +119,15 @@ class View {
     this.points = inputs.includes("points");
     if (this.drives || inputs.includes("keys")) {
       this.pad = new Pad(this.root, (command) => this.send(command));
-      this.stage.append(this.pad.root); // in the picture: a robot that is out of sight can't be driven
+      if (this.drives) this.stage.append(this.pad.root); // in the picture: a robot that is out of sight can't be driven
+      else this.pad.root.classList.add("below"); // a machine's picture may be low, and the pad would cover it
     }
     this.howTo = this.points ? POINT_HOW : this.drives ? HOW : this.pad ? MOVE_HOW : "";
     this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, go on step by step, and end it.");
     this.statusLine = make("div", { className: "say", role: "status" });
     this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
     this.legend = make("div", { className: "legend" });
-    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage, this.legend] : []), this.warningLine, this.statusLine, this.numbers,
+    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage, ...(this.pad && !this.drives ? [this.pad.root] : []), this.legend] : []), this.warningLine, this.statusLine, this.numbers,
       make("div", { className: "topics" }, this.head, this.topics, this.more), this.graph.root);
     this.tick = setInterval(() => { this.showTimeout(); this.requestGraph(); }, TIMEOUT / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
@@ -208,7 +209,8 @@ class View {
 
   /** Whether the robot's picture is large enough to drive by. */
   isInSight() {
-    return Boolean(this.picture) && this.picture.width >= SIGHT && this.picture.height >= SIGHT;
+    const least = this.drives ? SIGHT : SIGHT / 2; // a track is low
+    return Boolean(this.picture) && this.picture.width >= SIGHT && this.picture.height >= least;
   }
 
   /** Show a frame; ../live_view.py defines its format. */

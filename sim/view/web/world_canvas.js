@@ -106,7 +106,7 @@ class WorldCanvas {
   /** The height (px) that the panel around leaves for the picture, beside the controls and the numbers. */
   mostHeight() {
     if (!this.frameless) return Infinity;
-    const others = /** @type {HTMLElement[]} */ ([...this.stage.parentElement.children]).filter((each) => each.matches(".how, .bar, .legend, .warning, .say, .numbers"));
+    const others = /** @type {HTMLElement[]} */ ([...this.stage.parentElement.children]).filter((each) => each.matches(".how, .bar, .legend, .warning, .say, .numbers, .pad"));
     const taken = others.reduce((sum, each) => sum + each.offsetHeight, 0);
     const room = this.frameless.clientHeight;
     return Math.max(room - taken - TOPICS, LEAST_SHARE * room, LEAST_HEIGHT);
