@@ -127,7 +127,9 @@ class View {
     this.statusLine = make("div", { className: "say", role: "status" });
     this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
     this.legend = make("div", { className: "legend" });
-    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage, ...(this.pad && !this.drives ? [this.pad.root] : []), this.legend] : []), this.warningLine, this.statusLine, this.numbers,
+    const padBelow = this.pad && !this.drives ? [this.pad.root] : [];
+    const picture = this.world ? [this.stage, ...padBelow, this.legend] : [];
+    this.root.append(this.how, this.controls(), ...picture, this.warningLine, this.statusLine, this.numbers,
       make("div", { className: "topics" }, this.head, this.topics, this.more), this.graph.root);
     this.tick = setInterval(() => { this.showTimeout(); this.requestGraph(); }, TIMEOUT / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
