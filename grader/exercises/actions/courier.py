@@ -1,10 +1,10 @@
 """A client that gives up in time."""
 
 from grader.checks import Missed, hinting, sends_goals
-from grader.checks.course_goals import DRIVE, lines, quoted
 from grader.companions.action_servers import CarpetServer, DriveServer
 from grader.exercise import Exercise, Scenario
 from grader.responses import same
+from grader.responses.course_goals import DRIVE, lines, quoted
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
 
 PATIENCE = 8.0  # seconds

@@ -1,10 +1,10 @@
 """A client that logs how its goal goes, and that it was rejected."""
 
 from grader.checks import Missed, hinting, sends_goals
-from grader.checks.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, numbers_in, quoted
 from grader.companions.action_servers import BusyFibonacci, LateFibonacci
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window
+from grader.responses.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, numbers_in, quoted
 from sim.evidence import Goal, Recording
 
 SOON = 0.3  # seconds from what a client receives to its log line

@@ -1,9 +1,9 @@
 """A first action server, which computes."""
 
 from grader.checks import Missed
-from grader.checks.course_goals import fibonacci_offered, goal_text, has_the_result, is_succeeded
 from grader.companions.goal_senders import Mathematician
 from grader.exercise import Exercise
+from grader.responses.course_goals import fibonacci_offered, goal_text, has_the_result, is_succeeded
 from sim.evidence import Goal, Recording
 
 fibonacci = Exercise("fibonacci", "A first action", seconds=45, companions=[Mathematician], seeds=(1, 2))

@@ -4,10 +4,10 @@ import itertools
 import math
 
 from grader.checks import Missed, arrives, hinting, passes
-from grader.checks.course_goals import DRIVE, SPIN
 from grader.companions.action_servers import DriveServer, SpinServer
 from grader.exercise import Exercise
 from grader.responses import EDGE
+from grader.responses.course_goals import DRIVE, SPIN
 from sim.evidence import Goal, Recording
 
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]

@@ -2,7 +2,10 @@
 
 from grader.checks import Missed, rejects
 from grader.checks.actions import state
-from grader.checks.course_goals import (
+from grader.checks.topics import longest_pause
+from grader.companions.goal_senders import Examiner
+from grader.exercise import Exercise
+from grader.responses.course_goals import (
     FIBONACCI,
     fibonacci_offered,
     goal_text,
@@ -11,9 +14,6 @@ from grader.checks.course_goals import (
     picked,
     sequence,
 )
-from grader.checks.topics import longest_pause
-from grader.companions.goal_senders import Examiner
-from grader.exercise import Exercise
 from sim.evidence import Goal, Recording, stamps
 
 LIMITS = (1, 20)

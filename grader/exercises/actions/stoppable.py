@@ -2,9 +2,16 @@
 
 from grader.checks import Missed
 from grader.checks.actions import state
-from grader.checks.course_goals import FIBONACCI, fibonacci_offered, goal_text, is_succeeded, picked, sequence
 from grader.companions.goal_senders import Impatient
 from grader.exercise import Exercise
+from grader.responses.course_goals import (
+    FIBONACCI,
+    fibonacci_offered,
+    goal_text,
+    is_succeeded,
+    picked,
+    sequence,
+)
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
 
 QUICKLY = 1.0  # seconds from the cancel request to the end

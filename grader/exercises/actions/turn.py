@@ -8,11 +8,11 @@ import numpy as np
 
 from grader.checks import Missed, hinting, otherwise, subscribes
 from grader.checks.actions import state
-from grader.checks.course_goals import SPIN, numbers_in, offered, picked
 from grader.checks.topics import longest_pause
 from grader.companions.goal_senders import Captain
 from grader.exercise import Exercise
 from grader.responses import same
+from grader.responses.course_goals import SPIN, numbers_in, offered, picked
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 
 NEAR = 0.2  # radians

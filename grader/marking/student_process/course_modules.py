@@ -5,6 +5,8 @@ Right functions and reference data are in the modules of exercises and companion
 
 from __future__ import annotations
 
+import contextlib
+import dataclasses
 import functools
 import gc
 import sys
@@ -39,9 +41,23 @@ def keep_only(packages: Sequence[str]) -> None:
             delattr(sys.modules[parent], last)
     for name, module in closed.items():
         if name not in needed:
-            vars(module).clear()
+            _clear(module)
     sys.meta_path.insert(0, ClosedModules(packages))
     gc.collect()
+
+
+def _clear(module: ModuleType) -> None:
+    """Remove all that a module defines, and all methods of its classes.
+
+    Python lists the subclasses of every class, and memory that is shared with the judge is not collected.
+    """
+    classes = [value for value in vars(module).values() if isinstance(value, type)]
+    for owner in (each for each in classes if each.__module__ == module.__name__):
+        for name, part in list(vars(owner).items()):
+            if callable(part) or isinstance(part, property | classmethod | staticmethod):
+                with contextlib.suppress(AttributeError, TypeError):
+                    delattr(owner, name)
+    vars(module).clear()
 
 
 class ClosedModules(MetaPathFinder):
@@ -67,11 +83,13 @@ def _is_closed(name: str) -> bool:
 
 
 def _empty_exercises() -> None:
-    """Take the checks of all exercises away, and the runs; `packages.see` needs those of packages."""
+    """Take checks, runs and right definitions of all exercises away; `packages.see` needs packages' runs."""
     for exercise in exercises().values():
         exercise.checks.clear()
         if not exercise.package:
             exercise.scenarios, exercise.companions, exercise.world, exercise.until = (), (), None, None
+        if exercise.uses:
+            exercise.uses = dataclasses.replace(exercise.uses, definitions={})
 
 
 def _replace_companions(package: ModuleType) -> None:

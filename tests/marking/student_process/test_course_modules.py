@@ -1,12 +1,17 @@
 """What of the course a student's process can import, topic by topic, and that what is left works."""
 
+import functools
 import importlib
+import inspect
 import pkgutil
+import re
+import types
 
 import pytest
 
 import grader
 import grader.exercises
+from grader.catalog import exercises
 
 TOPICS = [module.name for module in pkgutil.iter_modules(grader.exercises.__path__)]
 CLOSED = tuple(f"grader.{name}" for name in ("exercises.", "companions", "geometry", "responses", "worlds",
@@ -39,6 +44,53 @@ for name, value in vars({topic}).items():
         if "__name__" not in function.__globals__:
             print(name, function)
 """
+FUNCTIONS = """
+import gc, importlib, types
+gc.unfreeze()
+for name in {names}:
+    try:
+        importlib.import_module(name)
+    except ModuleNotFoundError:
+        continue
+for each in gc.get_objects():
+    if isinstance(each, types.FunctionType) and str(each.__module__).startswith("grader."):
+        print(each.__module__, each.__qualname__)
+"""
+EVIDENCE = "Recording|Message|Goal|Call|LogLine|Endpoint|Missed|Pose]|Check|Fault|CallbackRun|PackageRun"
+# What checks use and a student's process has, although it takes no evidence of a run. Module: names, reason.
+THERE = {
+    "checks.check": ("Missed fraction hinting tenths", "how a check reports a miss"),
+    "checks.ends": ("_a", "words of a miss"),
+    "checks.fields": ("_parameters _plain _value listed message_text plain read stamp_words words", "words"),
+    "checks.frames": ("Broadcast between", "which transforms were published when"),
+    "checks.interface_definitions": ("InterfacePart _form _lines _part _read _reason read_definition",
+                                     "reads what a student wrote"),
+    "checks.cmake_lists": ("Blocks CMakeCommand _all_hold _holds _is_simple _is_true _put_in _split _tokens "
+                           "_unread _written read_commands", "reads what a student wrote"),
+    "checks.joints": ("JointLimits _cross _filled", "a margin to limits, and points between points"),
+    "checks.logs": ("_pace", "the pace of log lines"),
+    "checks.mistakes": ("usual_mistake", "compares with wrong formulas"),
+    "checks.motion": ("distances_to_line", "how far a path was from a line"),
+    "checks.navigation": ("to_go", "needs a World"),
+    "checks.packages": ("imports parsed", "reads what a student wrote"),
+    "checks.services": ("wrong_response", "words of a miss"),
+    "checks.shift": ("Shift _statuses _touched", "counts what was delivered"),
+    "checks.topics": ("longest_pause", "a pause between stamps"),
+    "checks.twists": ("speeds_text", "words of a miss"),
+    "companions.crates": ("crates", "the judge starts these; here they lack all that they use"),
+    "companions.scripted_orders": ("Script ScriptedOrder Situation situations", "needs the private seed"),
+    "companions.silent_systems": ("_misspelt cases", "needs the private seed"),
+    "companions.speakers": ("QuestionPublisher Speaker plans speakers", "needs the private seed"),
+    "diagnosis.activity": ("_times", "words of a hint"),
+    "diagnosis.driving": ("VelocityCommand _command_text", "words of a hint"),
+    "geometry.floor": ("far_from points_of", "given: lesson 13 has them, too"),
+    "geometry.ground": ("Ground drivable ground shortest", "draws worlds; needs a World"),
+    "geometry.occupancy": ("cells_of", "the cells of a grid"),
+    "geometry.pose": ("Pose2D", "draws worlds; its two formulas are in lesson 9"),
+    "responses.window": ("Window", "times"),
+    "workspace.interfaces": ("type_hash", "reads what was built"),
+    "worlds.crossing": ("in_view", "draws worlds; needs a World"),
+}
 # What earned the points of 6.1, 6.4, 11.6, 12.1 and 13.1 when it was handed in.
 TRICKS = {
     "navigator": [
@@ -49,11 +101,13 @@ TRICKS = {
     "packages": [
         "from grader.companions.patrol_package import FILES",
         "from grader.marking.judge.patrol_faults import FILES",
+        "from grader.companions.crates import INTERFACES",
+        "packages.keeper.uses.definitions['msg/Crate.msg']",
     ],
     "safety": ["from grader.companions.speed_candidates import _right", "safety.workshop(1)[0].args"],
     "delivery": ["from grader.exercises.delivery.blueprint import TOPICS", "delivery.blueprint.TOPICS"],
 }
-ERRORS = "ModuleNotFoundError", "ImportError", "IndexError", "AttributeError"
+ERRORS = "ModuleNotFoundError", "ImportError", "IndexError", "AttributeError", "KeyError"
 
 
 @pytest.mark.parametrize("topic", TOPICS)
@@ -65,6 +119,64 @@ def test_notebooks_import_their_package_and_nothing_else_that_holds_answers(star
     public = vars(importlib.import_module(names[1]))
     here = student.text(f"from grader.exercises import {topic}\nprint(*vars({topic}))").split()
     assert [name for name in public if not hasattr(public[name], "__path__") and name not in here] == []
+
+
+def used_by(function, found):
+    """Add all functions of the grader that a function calls, or may call, and itself."""
+    function = inspect.unwrap(function.func if isinstance(function, functools.partial) else function)
+    if not str(getattr(function, "__module__", "")).startswith("grader.") or function in found:
+        return
+    found.add(function)
+    if inspect.isclass(function):
+        for part in vars(function).values():
+            used_by(getattr(part, "fget", None) or getattr(part, "__func__", part), found)
+    elif inspect.isfunction(function):
+        for name in names_in(function.__code__):
+            value = function.__globals__.get(name)
+            values = list(value.values()) if isinstance(value, dict) else value
+            for part in values if isinstance(values, list | tuple) else [values]:
+                used_by(part, found)
+
+
+def names_in(code):
+    """The global names that code uses, with those of functions in it."""
+    inner = (each for each in code.co_consts if isinstance(each, types.CodeType))
+    return set(code.co_names).union(*map(names_in, inner))
+
+
+def takes_evidence(function):
+    """Whether it measures what is passed to it: a recording, or something of one."""
+    parameters = [each for each in inspect.signature(function).parameters.values() if each.name != "self"]
+    return bool(parameters) and bool(re.search(EVIDENCE, str(parameters[0].annotation)))
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_no_function_is_there_that_computes_what_a_check_compares_with(start_student, topic):
+    start = f"grader.exercises.{topic}"
+    modules = [each.name for each in pkgutil.walk_packages(grader.__path__, "grader.")]
+    names = [name for name in modules if not name.startswith(("grader.marking", "grader.__main__"))]
+    there = start_student(packages=[start]).text(FUNCTIONS.format(names=names)).splitlines()
+    used = set()
+    for exercise in exercises().values():
+        for check in exercise.checks:
+            if check.function.__module__.startswith(f"{start}."):
+                used_by(check.function, used)
+    functions = {each for each in used if inspect.isfunction(each) and not takes_evidence(each)}
+    assert functions
+    unexpected = {f"{each.__module__} {each.__qualname__}" for each in functions} & set(there)
+    for module, (names, _) in THERE.items():
+        known = tuple(f"grader.{module} {name}" for name in [*names.split(), "__create_fn__"])
+        unexpected -= {name for name in unexpected if name.startswith(known)}
+    assert unexpected == set()
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_classes_that_stay_with_the_judge_have_no_methods_there(start_student, topic):
+    student = start_student(packages=[f"grader.exercises.{topic}"])
+    there = student.text(FUNCTIONS.format(names=[])).splitlines()
+    homes = {line.partition(" ")[0] for line in there if line.startswith(CLOSED) and "<lambda>" not in line}
+    assert not {"grader.exercises.navigator.compass", "grader.geometry.scan_sectors"} & homes
+    assert ("grader.geometry.floor" in homes) == (topic == "delivery")
 
 
 @pytest.mark.parametrize("topic", TRICKS)

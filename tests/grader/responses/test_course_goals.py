@@ -4,7 +4,7 @@ import pytest
 from example_interfaces.action import Fibonacci
 
 from grader import Missed
-from grader.checks.course_goals import (
+from grader.responses.course_goals import (
     FIBONACCI,
     FIBONACCI_TYPE,
     fibonacci_offered,
