@@ -1,4 +1,4 @@
-"""The navigator that the lesson builds piece by piece, as one node. What it computes is in planning.py."""
+"""The navigator of lesson 6b as one node. What it computes is in planning.py."""
 
 import math
 import signal
@@ -26,6 +26,8 @@ MARGIN = 0.15  # m that the path keeps from walls
 class Navigator(Node):
     """Serves navigate_to_pose: plans, follows the plan, and plans again when something is in the way."""
 
+    ahead = 0.3  # m: how far ahead the point is that it drives to
+
     def __init__(self):
         super().__init__("navigator")
         self.buffer = Buffer()
@@ -47,7 +49,7 @@ class Navigator(Node):
     # -- what it receives --
 
     def on_map(self, msg):
-        """Keep the map, and a second copy for what the lidar sees beside it."""
+        """Store the map, and a copy in which the lidar's obstacles are marked."""
         self.grid, self.known, self.cells = msg, cells_of(msg), cells_of(msg)
 
     def on_scan(self, scan):
@@ -67,7 +69,7 @@ class Navigator(Node):
 
     @property
     def is_ready(self):
-        """Whether the map and the robot's place in it have been published."""
+        """Whether the map and the pose of the robot in it are known."""
         return self.grid is not None and self.buffer.can_transform("map", "base_link", Time())
 
     @property
@@ -83,7 +85,7 @@ class Navigator(Node):
     # -- obstacles and plans --
 
     def mark(self, x, y):
-        """Mark a point as occupied, and forget the path if it leads past there."""
+        """Mark a point as occupied, and forget the path if it passes too near."""
         column, row = to_cell(self.grid.info, x, y)
         inside = 0 <= row < len(self.cells) and 0 <= column < len(self.cells[0])
         if inside and self.cells[row, column] == 0 and not self.is_explained(row, column):
@@ -122,14 +124,14 @@ class Navigator(Node):
             self.plan(goal)
         path = self.path
         if path and math.dist(self.pose[:2], goal) > NEAR:
-            self.drive(*steer(self.pose, carrot(path, self.pose)))
+            self.drive(*steer(self.pose, carrot(path, self.pose, self.ahead)))
         else:
             self.drive(0.0, 0.0)
 
     # -- the action --
 
     def execute(self, goal_handle):
-        """Set the goal, watch, and say how it ended. The timer drives."""
+        """Set the goal, watch, and report how it ended. The timer drives."""
         position = goal_handle.request.pose.pose.position
         self.path, self.goal = [], (position.x, position.y)
         while not self.is_ready or math.dist(self.pose[:2], (position.x, position.y)) > NEAR:
@@ -142,14 +144,14 @@ class Navigator(Node):
         return self.finish(goal_handle.succeed)
 
     def feedback(self, path):
-        """How far it still is."""
+        """How far it still has to go."""
         feedback = NavigateToPose.Feedback(current_pose=stamped(*self.pose))
         feedback.distance_remaining = len(rest_of(path, self.pose)) * self.grid.info.resolution  # nearly
         feedback.estimated_time_remaining.sec = int(feedback.distance_remaining / SPEED)
         return feedback
 
     def finish(self, how):
-        """Stop the robot first, and then say how the goal ended."""
+        """Stop the robot first, and then report how the goal ended."""
         self.goal = None
         self.drive(0.0, 0.0)
         how()

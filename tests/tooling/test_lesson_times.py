@@ -12,11 +12,10 @@ NEAR = 10  # minutes between the time that a lesson shows and its estimate
 TOO_LONG = (
     "03_services/lesson",
     "05_sensing/lesson",
-    "06_navigator/lesson",
     "08_joints/lesson",
     "13_delivery/lesson",
 )
-TOO_DEEP = ("03_services/lesson", "05_sensing/lesson", "06_navigator/lesson", "10_control/lesson")
+TOO_DEEP = ("03_services/lesson", "05_sensing/lesson", "10_control/lesson")
 
 
 def notebook(tmp_path, *cells):

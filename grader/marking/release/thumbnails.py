@@ -28,7 +28,8 @@ SHOWN = {
     "03_services/lesson": ("set-run", "world"),
     "04_actions/lesson": ("whole-run", "graph"),
     "04_actions/driving": ("together-run", "world"),
-    "06_navigator/lesson": ("action-client", "world"),
+    "06_navigator/lesson": ("avoid-maze-run", "world"),
+    "06_navigator/navigating": ("whole-run", "world"),
 }
 DRAWINGS = {"plot_graph": "graph", "plot_logs": "log"}  # by the function of the cell's last line
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
