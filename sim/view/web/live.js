@@ -117,7 +117,7 @@ class View {
     this.drives = this.turtles || this.world?.bodies.some((body) => body.kind === "robot"); // otherwise it is a machine
     const inputs = model.get("inputs") ?? []; // what nodes read: "keys", "points"
     this.points = inputs.includes("points");
-    if (this.drives || inputs.includes("keys")) {
+    if ((this.drives && !this.points) || inputs.includes("keys")) { // the pad would cover what is to be clicked
       this.pad = new Pad(this.root, (command) => this.send(command));
       if (this.drives) this.stage.append(this.pad.root); // in the picture: a robot that is out of sight can't be driven
       else this.pad.root.classList.add("below"); // a machine's picture may be low, and the pad would cover it
