@@ -45,6 +45,8 @@ class EmergencyOperator(TimedNode):
     in which it calls /reset once more.
     """
 
+    period = 0.05
+
     def __init__(self) -> None:
         super().__init__("operator")
         steps = [(2.0, 3.0), (0.6, 0.9), (0.5, 0.8), (1.0, 1.4), (0.7, 0.9), (1.0, 1.4), (1.5, 2.0),
@@ -58,17 +60,24 @@ class EmergencyOperator(TimedNode):
         self.commands = self.create_publisher(Twist, RAW, 10)
         self.button = self.create_publisher(Bool, BUTTON, 10)
         self.client = self.create_client(Trigger, RESET)
+        self.ticks = 0
 
     def tick(self, now: float) -> None:
-        """Publish what holds now, the button first."""
+        """Publish the button and call /reset; in the next tick, publish the command.
+
+        So a command comes after a reset and before the button's next message: what lets go then is noticed.
+        """
+        self.ticks += 1
+        if self.ticks % 2 == 0:
+            if not self.quiet <= now < self.speak:
+                self.commands.publish(twist(self.speeds[now >= self.speak]))
+            return
         if not self.cut <= now < self.repaired:
             self.button.publish(Bool(data=self.press <= now < self.release))
         if self.resets and now >= self.resets[-1]:
             self.resets.pop()
             if self.client.service_is_ready():
                 self.client.call_async(Trigger.Request())
-        if not self.quiet <= now < self.speak:
-            self.commands.publish(twist(self.speeds[now >= self.speak]))
 
 
 class Drivers(TimedNode):

@@ -68,7 +68,7 @@ def stops(run: Recording) -> None:
     """When the button is pressed, the robot stands within 0.4 s, as long as it is in."""
     when = _times(run)
     hint = "Publish an empty Twist as soon as the button says True, and pass nothing on while it is stopped."
-    pressed = Window(when.press + BRAKING, when.release)
+    pressed = Window(when.press + BRAKING, min(when.release, requests_from_course(run, RESET)[0].requested))
     require_standing(run, pressed, f"{BRAKING:g} s after the button was pressed", hint)
 
 
@@ -94,6 +94,9 @@ def answers_resets(run: Recording) -> None:
             expected = f"success={right} at {call.requested:.3g} s, with the button{state}"
             granted_unsafely = call.response is not None and call.response.success
             raise Missed(expected, saw, BROKEN if broken else hint, unsafe=granted_unsafely)
+    refused, release = requests_from_course(run, RESET)[0].requested, _times(run).release
+    hint = "A reset that is refused changes nothing: self.stopped stays True as long as the button is in."
+    require_standing(run, Window(refused, release), f"after the refused reset at {refused:.3g} s", hint)
 
 
 @latch.check(2, after=(lets_through, stays_stopped))

@@ -241,3 +241,12 @@ class NoService(Stop):
     def create_service(self, type_, name, callback, **more):
         other = "/release" if name == "/reset" else name
         return super().create_service(type_, other, callback, **more)
+
+
+class RefusesAndLetsGo(Stop):
+    """Refuses a reset while the button is in, and releases all the same, until the button's next message."""
+
+    def reset(self, request, response):
+        response.success = not self.pressed and not self.is_silent()
+        self.stopped = False
+        return response
