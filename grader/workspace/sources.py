@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-NAME = re.compile(r"[A-Za-z0-9_+-][A-Za-z0-9_.+-]{0,99}")
-GENERATED = r"\..*|__pycache__|.*\.pyc"
+NAME = re.compile(r"\.github|[A-Za-z0-9_+-][A-Za-z0-9_.+-]{0,99}")
+GENERATED = r"\.(?!github$).*|__pycache__|.*\.pyc"
 IGNORED = "COLCON_IGNORE"  # colcon ignores a folder with this file; it creates one in its output folders
 FILE_KINDS = {stat.S_IFLNK: "a link", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket"}
 _FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC

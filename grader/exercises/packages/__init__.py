@@ -7,11 +7,12 @@ from grader.exercises.packages.crates import crates
 from grader.exercises.packages.gauge import gauge
 from grader.exercises.packages.greeter import greeter
 from grader.exercises.packages.keeper import keeper
+from grader.exercises.packages.limiter import limiter
 from grader.exercises.packages.patrol import patrol
 from grader.exercises.packages.station import station
 from grader.trial import see
 
 __all__ = [
     "LANES", "VoltageProbe", "WeatherStation", "convoy", "crates", "gauge", "greeter", "keeper",
-    "patrol", "repaired", "see", "station",
+    "limiter", "patrol", "repaired", "see", "station",
 ]

@@ -18,7 +18,7 @@ from typing import Any, NoReturn
 from grader.catalog import exercises
 from grader.marking.student_process.judge_only import CLOSED, EXERCISES
 
-SERVED = ("grader.companions.main_observer",)  # the judge names its function
+SERVED = "grader.companions.main_observer", "grader.companions.test_runner"  # the judge names functions
 WITH_JUDGE = ("grader.companions.workshop",)  # its nodes hold right functions: it starts no program here
 
 
