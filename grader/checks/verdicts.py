@@ -86,7 +86,7 @@ def _spoofed(found: Intrusion) -> Verdict:
     """The line that tells a student of an end where only another program has one. It carries no points."""
     return Verdict(
         SPOOFED_TOPICS,
-        "Topics and services of other programs are left to them.",
+        "The node leaves topics and services of other programs alone.",
         0.0,
         "failed",
         0.0,

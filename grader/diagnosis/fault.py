@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-NOT_STARTED = "There is code of yours to run."
+NOT_STARTED = "There is code to run."
 
 
 @dataclass(frozen=True)

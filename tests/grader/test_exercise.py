@@ -227,7 +227,7 @@ def test_a_wrong_node_gets_what_it_earned_and_one_red_line(student, points):
     assert len([v for v in score.verdicts if v.status == "failed"]) == 1
 
 
-NO_CODE = ("There is code of yours to run.", "your node's class, or your main function")
+NO_CODE = ("There is code to run.", "your node's class, or your main function")
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ def sends_both_kinds(run: Recording) -> None:
 
 @square.check(4, after=sends_both_kinds)
 def waits_for_the_end(run: Recording) -> None:
-    """A goal is sent only when the one before has ended."""
+    """A goal is sent only when the previous one has ended."""
     for before, after in itertools.pairwise(_goals(run)):
         if before.ended is None or before.ended > after.requested + EDGE:
             hint = "Accepted isn't done: finish awaits handle.get_result_async(), too, and go awaits finish."
@@ -49,7 +49,7 @@ def passes_the_corners(run: Recording) -> None:
 
 @square.check(2, after=passes_the_corners)
 def comes_back(run: Recording) -> None:
-    """It ends where it began, and all goals have succeeded."""
+    """It ends where it started, and all goals have succeeded."""
     failed = next((goal for goal in _goals(run) if goal.status != "succeeded"), None)
     if failed:
         saw = f"{failed.action} {failed.status or 'without a decision'}"

@@ -31,7 +31,7 @@ def _is_bad(goal: Goal) -> bool:
 
 @steps.check(4)
 def accepts_good_orders(run: Recording) -> None:
-    """Orders from 1 to 20 are accepted, the limits too."""
+    """Orders from 1 to 20 are accepted, both limits included."""
     fibonacci_offered(run)
     for goal in picked(run, FIBONACCI, _is_good):
         if goal.at("accepted") is None:

@@ -54,7 +54,7 @@ def offers_to_turn(run: Recording) -> None:
     "step on_odometry keeps the yaw: self.yaw = yaw.": otherwise,
 })
 def turns_by_the_angle(run: Recording) -> None:
-    """Goals to both sides, also by more than half a turn, succeed: the robot has turned by target_yaw."""
+    """Goals to both sides, even of more than half a turn, succeed: the robot has turned by target_yaw."""
     goals = picked(run, SPIN, lambda goal: goal.request.target_yaw < 5.0)
     for number, goal in enumerate(goals):
         target = goal.request.target_yaw
@@ -69,7 +69,7 @@ def turns_by_the_angle(run: Recording) -> None:
 
 @turn.check(4, after=offers_to_turn)
 def publishes_how_far_it_is(run: Recording) -> None:
-    """Feedback comes several times a second, and says how far the robot has turned."""
+    """Feedback comes several times a second, and contains how far the robot has turned."""
     goals = picked(run, SPIN)
     if not any(goal.feedback for goal in goals):
         guess = "In the loop: goal_handle.publish_feedback(feedback), then the pause."

@@ -63,7 +63,7 @@ def counts_while_it_stands(run: Recording) -> None:
     **WRONG_TIME,
 })
 def keeps_how_long_it_stood(run: Recording) -> None:
-    """Where the motor is too weak, /stood stays at how long the pole stood: until it leant by 0.5 rad."""
+    """Where the motor is too weak, /stood stays at how long the pole stood: until it leaned by 0.5 rad."""
     fell = fell_at(run)
     if fell is None:
         raise Missed("a pole that falls", "it stood")

@@ -40,7 +40,7 @@ def publishes_both(run: Recording) -> None:
     "self.distance + 0.2 * (new - self.distance), and keep it for the next scan.": otherwise,
 })
 def filters(run: Recording) -> None:
-    """/distance is what the lidar sees ahead, filtered: a fifth of what is new, four fifths of what was."""
+    """/distance is what the lidar sees ahead, filtered: a fifth of the new value, four fifths of the old."""
     scans = [row.message.ranges[0] for row in from_course(run, "/scan", what="scans")]
     sent = [row.message.data for row in run.messages("/distance")]
     # The first scans may be sent before the node is there; a scan in the end may be unanswered.
@@ -63,7 +63,7 @@ def filters(run: Recording) -> None:
         lambda run: True,
 })
 def does_not_run_into_the_wall(run: Recording) -> None:
-    """The robot comes to the wall, up to 0.85 m or less, and never nearer than 0.48 m. It touches nothing."""
+    """The robot gets within 0.85 m of the wall, and never nearer than 0.48 m. It touches nothing."""
     keeps_clear(run, "")
     distances = _distances(run, 0.0)
     nearest, stamp = min(distances)
@@ -77,7 +77,7 @@ def does_not_run_into_the_wall(run: Recording) -> None:
 
 @gap.check(2, after=does_not_run_into_the_wall)
 def keeps_within_the_limit(run: Recording) -> None:
-    """No speed is beyond 0.3 m/s, either way."""
+    """No speed is beyond 0.3 m/s, in either direction."""
     with hinting(f"Cut it before you publish it: max(-{MOST:g}, min({MOST:g}, speed))."):
         within(run, "/speed", "data", -MOST, MOST, unit="m/s")
 

@@ -62,7 +62,7 @@ def measures_the_latency(run: Recording) -> list[Beat]:
     "Remember when the last message arrived, by your clock; abs(now - before - 0.02).": otherwise,
 })
 def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
-    """With each message but the first, /jitter says by how much the time since the last is not 0.02 s."""
+    """With each message but the first, /jitter is how far the time since the last one is from 0.02 s."""
     _require_numbers(run, "/jitter", FLOAT, [abs(gap - PERIOD) for gap in _gaps(run)], beats[1:])
 
 
@@ -75,7 +75,7 @@ def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
     "Count those whose latency is above 0.01 s, from the start on.": otherwise,
 })
 def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
-    """After each message /late says how many came with a latency of more than 0.01 s."""
+    """After each message, /late is how many had a latency of more than 0.01 s."""
     counts = list(itertools.accumulate(int(beat.latency > ALLOWED) for beat in beats))
     _require_numbers(run, "/late", "std_msgs/msg/Int32", counts, beats)
 

@@ -36,7 +36,7 @@ def keeps_it_up(run: Recording) -> None:
 
 @marks.check(3, after=(subscribes_and_pushes, keeps_it_up))
 def spares_the_motor(run: Recording) -> None:
-    """No effort is beyond 3 N, either way."""
+    """No effort is beyond 3 N, in either direction."""
     keeps_to_limits(run, WEAK)
 
 

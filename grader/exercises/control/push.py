@@ -26,7 +26,7 @@ def keeps_it_up(run: Recording) -> None:
 
 @push.check(2, after=(pushes, keeps_it_up))
 def spares_the_motor(run: Recording) -> None:
-    """No effort is beyond 10 N, either way."""
+    """No effort is beyond 10 N, in either direction."""
     keeps_to_limits(run, LIMIT)
 
 
@@ -41,7 +41,7 @@ def comes_back(run: Recording) -> None:
 
 @push.check(2, after=keeps_it_up)
 def stands_quietly(run: Recording) -> None:
-    """And the pole stands quietly then: within 0.05 rad."""
+    """And then the pole stands still, within 0.05 rad."""
     still_stands(run)
     for begin, end in _after_pushes(run):
         rest = lean(run.during(begin + SOON, end))

@@ -38,7 +38,7 @@ def subscribes_and_publishes(run: Recording) -> None:
     "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
 })
 def looks_at_each_picture(run: Recording) -> None:
-    """Each picture is looked at: the place of its brightest pixel is on /brightest 0.3 s to 0.75 s later."""
+    """Each picture is processed: its brightest pixel's place is on /brightest 0.3 s to 0.75 s later."""
     taken = pictures(run)
     missed = []
     for picture in taken:
@@ -66,7 +66,7 @@ def keeps_it_up(run: Recording) -> None:
 
 @worker.check(4, after=keeps_it_up)
 def keeps_the_deadline(run: Recording) -> None:
-    """An effort comes at least every 0.035 s, also while a picture is looked at."""
+    """An effort comes at least every 0.035 s, even while a picture is processed."""
     sent = [row.stamp for row in run.messages(EFFORT)]
     always = statistics.median(b - a for a, b in itertools.pairwise(sent)) > LIMIT
     hint = "Push with each joint state, 100 times a second." if always else ASIDE

@@ -52,7 +52,7 @@ def has_four_programs(run: Recording) -> None:
 
 @blueprint.check(3, after=has_four_programs)
 def publishes_answers(run: Recording) -> None:
-    """Each program publishes its answers, with the right types."""
+    """Each program publishes its results, with the right types."""
     hint = "Read the question of each program: what does it say, on which topic, of which type?"
     for name, topic in TOPICS.items():
         if topic.publisher:
@@ -61,7 +61,7 @@ def publishes_answers(run: Recording) -> None:
 
 @blueprint.check(4, after=has_four_programs)
 def subscribes_to_what_it_needs(run: Recording) -> None:
-    """Each program subscribes to what its question needs, with the right types: control to /people, too."""
+    """Each program subscribes to what its task needs, with the right types: control to /people, too."""
     for name, topic in TOPICS.items():
         for program in topic.subscribers:
             hint = "Read the question of each program: what does it have to receive to answer?"

@@ -27,13 +27,13 @@ def decides(run: Recording) -> None:
 
 @decide.check(2, after=decides)
 def knows_latched_messages(run: Recording) -> None:
-    """It knows what was published before it began: the last word on each order counts."""
+    """It knows what was published before it started: the last message about each order counts."""
     _compare(run, "past", PAST)
 
 
 @decide.check(1, after=knows_latched_messages)
 def has_the_frame_map(run: Recording) -> None:
-    """Where to go is said in the frame map, as /dock_pose and the orders do."""
+    """Goals are in the frame map, as /dock_pose and the orders are."""
     for goal in from_student(run, GOAL):
         frame = goal.message.header.frame_id
         if frame != "map":
@@ -43,7 +43,7 @@ def has_the_frame_map(run: Recording) -> None:
 
 @decide.check(2, after=knows_latched_messages)
 def publishes_twice_a_second(run: Recording) -> None:
-    """It says where to go twice a second, without a pause."""
+    """It publishes the goal twice a second, without a pause."""
     for topic in (GOAL, STATE):
         rate(run, topic, 2.0, tolerance=0.15)
 
@@ -63,14 +63,14 @@ def charges(run: Recording) -> None:
 
 @decide.check(4, after=knows_latched_messages)
 def gives_up(run: Recording) -> None:
-    """It gives up what is over, and what can't be made in time any more."""
+    """It drops orders that are over, and those that can't be delivered in time any more."""
     hint = "Fetch an order only while it is WAITING and has more time left than it takes; ask each time."
     _compare(run, "gives up", hint)
 
 
 @decide.check(3, after=knows_latched_messages)
 def keeps_to_one(run: Recording) -> None:
-    """It takes the most urgent order, and then stays with the one that it began."""
+    """It takes the most urgent order, and then stays with the one that it has begun."""
     hint = "While the order that it began can be made, none takes its place; else the earliest deadline."
     _compare(run, "keeps", hint)
 

@@ -70,7 +70,7 @@ deliver = Exercise(
 
 @deliver.check(1, lasts=True)
 def touches_no_one(run: Recording) -> None:
-    """In no run the robot touches a person, or drives within 0.5 m of one: such a run earns no more."""
+    """In no run does the robot touch a person, or drive within 0.5 m of one: such a run earns no more."""
     moment, near = shift(run).met_person, nearest_person(run, DRIVING)
     if moment is not None:
         hint = ("Control stands still while a person walks near, whatever its goal, and while it doesn't "
@@ -114,7 +114,7 @@ def touches_nothing(run: Recording) -> None:
 
 @deliver.check(3, after=touches_no_one, only="blind", hints=IDLE)
 def stands_blind(run: Recording) -> None:
-    """Whenever the lidar falls silent, the robot stands within 1 s."""
+    """Whenever the lidar falls silent, the robot stops within 1 s."""
     drove = False
     for begin, end in run.world.lidar.silent:
         if begin + SETTLING > run.stamp:
@@ -141,19 +141,19 @@ NEW_MESSAGES_ONLY = ("A program that is restarted receives old orders, the map a
 
 @deliver.check(1, after=stands_blind, only="blind", hints=_unless_idle(WAITS_FOR_EVER))
 def sees_again(run: Recording) -> None:
-    """When the scans come again it goes on, and delivers the order."""
+    """When the scans come again, it continues and delivers the order."""
     _require_delivery(run)
 
 
 @deliver.check(3, after=touches_no_one, only="blocked", hints=_unless_idle(SAME_WAY))
 def goes_round(run: Recording) -> None:
-    """When a box blocks its way that no map shows, it finds another way, and delivers the order."""
+    """When a box that is on no map blocks its path, it finds another one, and delivers the order."""
     _require_delivery(run)
 
 
 @deliver.check(2, after=touches_no_one, only="canceled", hints=_unless_idle(SAME_ORDER))
 def takes_another(run: Recording) -> None:
-    """When its order is canceled under way, it carries out another one."""
+    """When its order is canceled on the way, it carries out another one."""
     _require_delivery(run)
 
 

@@ -68,14 +68,14 @@ def slow_about_people(run: Recording) -> None:
 
 @gate.check(4, after=arrives)
 def stands_without_new_messages(run: Recording) -> None:
-    """It stands when /robot_pose or /people is older than 0.5 s, by the stamps."""
+    """It stops when /robot_pose or /people is older than 0.5 s, by the stamps."""
     hint = "Keep the stamps of both, not when they came, and compare the older one with the clock."
     _require_at_most(run, STILL, _old, hint, unsafe=True)
 
 
 @gate.check(3, after=arrives)
 def publishes_stops_and_goes_on(run: Recording) -> None:
-    """It publishes ten times a second in every case, and drives on when it may."""
+    """It publishes ten times a second in every case, and drives on when it is allowed to."""
     try:
         rate(run, OUT, 10.0, tolerance=0.15)
     except Missed as missed:

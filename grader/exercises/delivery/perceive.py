@@ -86,7 +86,7 @@ def stamps_by_the_scan(run: Recording) -> None:
 
 @perceive.check(4, after=knows_its_place)
 def finds_what_stands(run: Recording) -> None:
-    """/obstacles has points of the boxes in view, and none of what is on the map."""
+    """/obstacles contains points of the boxes in view, and none of what is on the map."""
     boxes = _boxes_in_view(run)
     hint = "Floor.strange gives the points that the map doesn't explain; publish them all."
     for row in from_student(run, OBSTACLES)[::EACH]:
@@ -107,7 +107,7 @@ def finds_what_stands(run: Recording) -> None:
 
 @perceive.check(5, after=knows_its_place)
 def finds_who_walks(run: Recording) -> None:
-    """/people has a point of each walking person in view, and none of a box that was there from the start."""
+    """/people contains one point for each moving person in view, and none for static boxes."""
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.0) and _speed_of_person(run, row, 1.0) > WALKS]
     comes = _time(seen[0]) if seen else math.inf

@@ -62,7 +62,7 @@ def keeps_the_gap(run: Recording) -> None:
 
 @behind.check(5, after=subscribes_and_drives, only="parked", hints=WHY_OFF)
 def stands_behind_one_who_stands(run: Recording) -> None:
-    """Behind a leader that stands, it comes to stand itself, within 0.25 m of that point."""
+    """Behind a leader that has stopped, it stops itself, within 0.25 m of that point."""
     robot, leader = run.path[-1], run.tracks["leader"][-1]
     error = math.dist(robot[1:3], Pose2D(*leader[1:]).point((-GAP, 0.0)))
     if not error <= BAND:

@@ -46,7 +46,7 @@ def places_them(run: Recording) -> None:
 
 @delayed.check(4, after=places_them)
 def waits_no_longer_than_needed(run: Recording) -> None:
-    """It comes out as soon as its transform has come, within 0.2 s."""
+    """It comes out as soon as its transform is there, within 0.2 s."""
     for seen in detections(run, at_least=5):
         for answer in _answers(seen)[:1]:
             ready = next(one.stamp for one in _robot(run) if one.measured >= _measured(seen.message) - EDGE)

@@ -59,7 +59,7 @@ def places_them(run: Recording) -> None:
 
 @lookup.check(5, after=places_them)
 def publishes_refusals(run: Recording) -> None:
-    """Where it can't be had, the exception's name comes out on /refused (String), such as LookupException."""
+    """If the lookup fails, the exception's name comes out on /refused (String), such as LookupException."""
     publishes(run, REFUSED, "std_msgs/msg/String")
     for seen in refused_sightings(run, at_least=len(SIGHTINGS)):
         reason = _reason(run, seen)
@@ -73,7 +73,7 @@ def publishes_refusals(run: Recording) -> None:
 
 @lookup.check(3, after=publishes_refusals)
 def carries_on(run: Recording) -> None:
-    """Nothing else is said, and the node goes on to the end."""
+    """Nothing else is published, and the node keeps running to the end."""
     reasons, settled = [_reason(run, seen) for seen in _sightings(run)], Window(0.0, run.ended.stamp - SOON)
     for topic, count in ((FOUND, reasons.count("")), (REFUSED, len(reasons) - reasons.count(""))):
         sent = settled.rows(run.messages(topic))
@@ -84,7 +84,7 @@ def carries_on(run: Recording) -> None:
 
 @lookup.check(2, after=places_them)
 def keeps_the_stamp(run: Recording) -> None:
-    """The place on the map has the stamp of its sighting: it was there then."""
+    """The place on the map has the stamp of its sighting: the time at which it was there."""
     stamps = [_measured(seen) for seen in _sightings(run)]
     for row in Window(0.0, run.ended.stamp - SOON).rows(run.messages(FOUND)):
         stamp = row.message.header.stamp

@@ -23,7 +23,7 @@ def sends_static_transforms(run: Recording) -> None:
 
 @mount.check(5, after=sends_static_transforms)
 def puts_it_there(run: Recording) -> list[Broadcast]:
-    """The parent is base_link, the child base_scan, and it is where the mechanic says: x and y."""
+    """The parent is base_link, the child base_scan, and x and y are those that the mechanic published."""
     mounting = from_course(run, MOUNTING)[0].message
     x, y = mounting.x, mounting.y
 
@@ -47,7 +47,7 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
     FULL_TURN: otherwise,
 })
 def turns_it(run: Recording, sent: list[Broadcast]) -> None:
-    """It is turned as the mechanic says: a quaternion of length 1, for theta about z."""
+    """The rotation is the mechanic's theta about z, as a quaternion of length 1."""
     theta, turn = from_course(run, MOUNTING)[0].message.theta, sent[-1].message.transform.rotation
     if not sent[-1].is_rotation:
         length = math.hypot(turn.x, turn.y, turn.z, turn.w)
@@ -60,7 +60,7 @@ def turns_it(run: Recording, sent: list[Broadcast]) -> None:
 
 @mount.check(2, after=puts_it_there)
 def is_latched_and_sent_once(run: Recording) -> None:
-    """It is said once, and kept for all who come later."""
+    """It is published once, and latched for late subscribers."""
     count = sum(not row.from_course for row in run.messages(STATIC))
     ends = [end for end in run.graph.publishers(STATIC) if not end.from_course]
     volatile = any(end.qos["durability"] == "volatile" for end in ends)

@@ -37,7 +37,7 @@ def subscribes_and_broadcasts(run: Recording) -> None:
     f"Parts of rotation are those of pose.pose.orientation, all four. {FULL_TURN}": otherwise,
 })
 def puts_it_there(run: Recording) -> None:
-    """The parent is odom, the child base_link, and it is where the odometry has it, turned as it is."""
+    """The parent is odom, the child base_link, and position and rotation are the odometry's."""
     rows, sent, wrong = _odometry(run), broadcasts(run, "/tf"), []
     for one in sent:
         poses = [Pose2D.from_message(row.message.pose.pose) for row in Window(0.0, one.stamp).rows(rows)]
@@ -57,7 +57,7 @@ def puts_it_there(run: Recording) -> None:
 
 @odometry.check(3, after=puts_it_there)
 def one_for_each(run: Recording) -> None:
-    """Each odometry gives one transform, at once."""
+    """Each odometry message gives one transform, at once."""
     sent = broadcasts(run, "/tf")
     for row in _odometry(run)[:-1]:  # the answer to the last may not have come
         count = len(Window.after(row.stamp, SOON).rows(sent))

@@ -41,7 +41,7 @@ def faces_the_scout(run: Recording) -> None:
 
 @watch.check(4, after=faces_the_scout)
 def leaves_others_alone(run: Recording) -> None:
-    """The other robot is left where it is."""
+    """The other robot stays where it is."""
     for pose in run.path:
         if math.dist(run.path[0][1:3], pose[1:3]) > STILL:
             hint = "That robot is not yours: send nothing on /cmd_vel."

@@ -58,7 +58,7 @@ def begins_with_the_first(run: Recording) -> None:
     **NOT_ALL,
 })
 def waits_for_arrival(run: Recording) -> None:
-    """No command comes before the joint stands where the one before has sent it."""
+    """No command comes before the joint has stopped at the position before."""
     commands, count = _commands(run), len(_positions(run))
     for before, after in itertools.pairwise(commands):
         target = before.message.data
@@ -78,7 +78,7 @@ def waits_for_arrival(run: Recording) -> None:
 
 @arrive.check(3, after=waits_for_arrival, hints=NOT_ALL)
 def goes_to_all(run: Recording) -> None:
-    """The joint is sent to all of the positions, in their order, each of them once."""
+    """The joint is sent to all of the positions, in order, each of them once."""
     positions, sent = _positions(run), [row.message.data for row in _commands(run)]
     if len(sent) != len(positions) or not matches(sent, positions):
         raise Missed(listed(positions), listed(sent), about=(sent,))

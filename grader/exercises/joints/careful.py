@@ -43,7 +43,7 @@ def publishes_commands(run: Recording) -> None:
         lambda run, request: _limits(run)._asdict(),
 })
 def passes_on(run: Recording) -> None:
-    """What is wanted within the lift's limits goes on to /joint_commands at once, every time."""
+    """Every position within the lift's limits is passed on to /joint_commands at once."""
     _refused(run)
     for request in requests(run, where=lambda msg: _is_within(run, msg)):
         request.expects(request.value.data)
@@ -58,7 +58,7 @@ def passes_on(run: Recording) -> None:
         lambda run: True,
 })
 def refuses(run: Recording) -> None:
-    """What lies beyond the limits, or is not a number, is not passed on, nor anything else in its place."""
+    """A position beyond the limits, or nan, is not passed on, nor anything else in its place."""
     commands_within(run, COMMANDS, "data", *_limits(run))
     for request in _refused(run):
         if request.responses and not _holds_a_jam(run, request.responses[0], REACTION + SOON):
@@ -93,7 +93,7 @@ def logs_refusals(run: Recording) -> None:
     "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
 })
 def frees_what_is_stuck(run: Recording) -> None:
-    """Where the lift is stuck it is commanded to stay where it is, within 1.2 s; and at no other time."""
+    """A lift that is stuck is commanded to stay where it is, within 1.2 s; and at no other time."""
     for jam in _jams(run):
         if not _is_freed(run, jam):
             sent = Window.after(jam.stamp, REACTION).rows(run.messages(COMMANDS))

@@ -36,7 +36,7 @@ def sends_a_goal(run: Recording) -> list[Goal]:
     "Read the reason: it says which point or joint it is about.": otherwise,
 })
 def can_be_followed(run: Recording, goals: list[Goal]) -> None:
-    """The arm accepts it, and comes to its end."""
+    """The arm accepts it, and executes it to the end."""
     for goal in goals:
         if goal.status != "succeeded":
             errors = [line.text for line in run.logs if line.from_course and line.level == "ERROR"]

@@ -57,7 +57,7 @@ def every_two_seconds(run: Recording) -> None:
 
 @seven.check(3, after=sends_all_seven)
 def ends_by_itself(run: Recording) -> None:
-    """When all are sent it ends: its node is gone, ROS is shut down, and there is no error."""
+    """When all are sent, it ends: its node is destroyed, ROS is shut down, and there is no error."""
     last, end = run.messages(COMMANDS)[-1].stamp, run.all_exited_at
     if run.errors:
         raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")

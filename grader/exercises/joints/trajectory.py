@@ -97,7 +97,7 @@ def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
 
 @trajectory.check(4, after=by_their_names)
 def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
-    """With each feedback, the larger of the two joints' errors goes out on /worst_error, without a sign."""
+    """With each feedback, the larger of the two joints' errors is published on /worst_error, unsigned."""
     feedback = [row for _, goal in lessons for row in goal.feedback]
     if not feedback:
         hint = "Without a goal that is accepted there is no feedback: see the other lines first."
@@ -124,7 +124,7 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
     "word; with the result's error_string if it was aborted.": otherwise,
 })
 def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
-    """Each goal's end goes out on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
+    """Each goal's end is on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     published = publishes(run, "/outcome", "std_msgs/msg/String")
     for path, goal in lessons:
         if goal.ended is None or not Window.after(goal.ended, SOON).is_over(run):

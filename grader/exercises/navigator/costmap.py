@@ -33,7 +33,7 @@ clicks = Stimuli("/clicked_point", answered_on="/cell_center", within=0.45)
     "profile LATCHED instead of a queue depth.": otherwise,
 })
 def receives_the_map(run: Recording) -> Any:
-    """The node subscribes to /map, though it was published before."""
+    """The node receives /map, although it was published before."""
     for end in subscribes(run, "/map", GRID):
         if end.qos["durability"] != "transient_local":
             expected = "a subscription to /map with the durability transient_local"

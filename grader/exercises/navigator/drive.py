@@ -77,7 +77,7 @@ def stays_there(run: Recording) -> None:
 
 @drive.check(2, after=gets_there)
 def goes_straight(run: Recording) -> None:
-    """The way to the goal is no more than 15 % longer than the straight line."""
+    """The path to the goal is no more than 15 % longer than the straight line."""
     reached = next((pose.stamp for pose in run.path if math.dist(GOAL, pose[1:3]) <= NEAR), None)
     if reached is None:
         raise Missed("a way to (5, 5)", "the robot did not get there", "First get there.", picture="path")

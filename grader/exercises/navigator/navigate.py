@@ -111,13 +111,13 @@ ARRIVES: dict[str, Callable[..., Any]] = {
 
 @navigate.check(7, after=serves, only=KNOWN, hints=ARRIVES)
 def reaches_the_goal(run: Recording) -> None:
-    """The robot is led to the goal, within 25 cm, and then the goal has succeeded."""
+    """The robot gets within 25 cm of the goal, and then the goal succeeds."""
     _succeeds(run)
 
 
 @navigate.check(4, after=serves, only="blocked", hints=ARRIVES)
 def goes_round(run: Recording) -> None:
-    """The robot gets to the goal, too, when a box that is in no map blocks its way; it touches nothing."""
+    """The robot also gets to the goal when a box that is on no map blocks its path; it touches nothing."""
     hint = "The map doesn't know the box, but the lidar sees it: plan anew when the path is blocked."
     if len(run.messages("/plan")) > 1:
         hint = f"It planned anew. Is the box inflated, and marked where it is? {TURNED}"
@@ -127,14 +127,14 @@ def goes_round(run: Recording) -> None:
 
 @navigate.check(3, after=reaches_the_goal, only=KNOWN)
 def touches_nothing(run: Recording) -> None:
-    """In the known world the robot touches nothing."""
+    """In a fully mapped world the robot touches nothing."""
     hint = "Inflate walls by more than the robot's radius of 0.1 m, and don't look too far ahead."
     has_no_contacts(run, hint)
 
 
 @navigate.check(3, after=(serves, reaches_the_goal))
 def does_not_dawdle(run: Recording) -> None:
-    """The way is at most 35 % longer than the shortest one, and the robot makes 15 cm of it in a second."""
+    """The path is at most 35 % longer than the shortest one, and the robot covers 15 cm of it in a second."""
     goal = goals_from_course(run)[-1]
     begin, end = goal.at("accepted") or 0.0, end_of(run, goal)
     least = max(to_go(run.world, run.pose_at(begin)), 0.5)
@@ -152,7 +152,7 @@ def does_not_dawdle(run: Recording) -> None:
 
 @navigate.check(3, after=(serves, reaches_the_goal))
 def reports_the_distance_left(run: Recording) -> None:
-    """At least every 2 s the feedback says where the robot is, how far it is to go and how long it takes."""
+    """At least every 2 s the feedback has the robot's pose, the distance left and the time needed."""
     goal = goals_from_course(run)[-1]
     moments = [goal.at("executing") or 0.0, *stamps(goal.feedback), end_of(run, goal)]
     pause = max(after - before for before, after in itertools.pairwise(moments))

@@ -64,7 +64,7 @@ def _charge(line: LogMatch) -> int:
 
 @battery.check(3, lasts=True)
 def shows_debug_lines(run: Recording) -> None:
-    """A debug line “Measuring” can be seen every second."""
+    """A debug line “Measuring” is logged every second."""
     with hinting("Debug lines are hidden until the logger's level is set to DEBUG." if run.logs else ""):
         lines = logs(run, r"^\W*?measuring", level="DEBUG", example="Measuring")
     come_every(run, lines, 1.0)

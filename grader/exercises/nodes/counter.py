@@ -22,7 +22,7 @@ def logs_counts(run: Recording) -> list[LogMatch]:
 
 @counter.check(6, after=logs_counts)
 def counts_up(run: Recording, lines: list[LogMatch]) -> None:
-    """The count begins at 1 and goes up by 1 from line to line."""
+    """The count starts at 1 and goes up by 1 with each line."""
     counts = [int(line.groups[0]) for line in lines]
     wanted = list(range(1, len(counts) + 1))
     if counts == wanted:

@@ -10,7 +10,7 @@ heart = Exercise("heart", "A heart with two timers", seconds=5)
 
 @heart.check(4)
 def called_heart_of_robot1(run: Recording) -> None:
-    """The node is called heart and lives in the namespace /robot1."""
+    """The node is called heart and is in the namespace /robot1."""
     name, nodes = "/robot1/heart", run.graph.nodes
     if name in nodes:
         return

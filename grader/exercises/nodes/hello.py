@@ -18,7 +18,7 @@ def logs_hello(run: Recording) -> None:
 
 @hello.check(3, after=logs_hello)
 def logs_it_once(run: Recording) -> None:
-    """It says so once."""
+    """It does so once."""
     count = len(logs(run, HELLO))
     if count > 1:
         raise Missed("one line", f"{count} lines", "__init__ runs once for each node: there is the place.")

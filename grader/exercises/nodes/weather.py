@@ -25,7 +25,7 @@ def logs_the_weather(run: Recording) -> list[LogMatch]:
 
 @weather.check(3, after=logs_the_weather)
 def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
-    """The readings come in their order, and after the last one the first again."""
+    """The readings come in order, and after the last one the first again."""
     found = [round(_celsius(line)) for line in lines]
     wanted = [READINGS[index % len(READINGS)] for index in range(max(len(found), len(READINGS) + 1))]
     if found != wanted[: len(found)] or len(found) < len(wanted):
@@ -46,7 +46,7 @@ def converts(run: Recording, lines: list[LogMatch]) -> None:
 
 @weather.check(4, after=logs_the_weather)
 def describes(run: Recording, lines: list[LogMatch]) -> None:
-    """The words are right: frost below 0 °C, hot from 30 °C on, else mild."""
+    """The words are right: frost below 0 °C, hot from 30 °C on, otherwise mild."""
     wrong = [line for line in lines if line.groups[2].lower() != _word(line)]
     if wrong:
         expected = f"{wrong[0].groups[0]} C to be {_word(wrong[0])}"

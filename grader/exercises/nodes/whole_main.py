@@ -13,7 +13,7 @@ whole_main = Exercise("whole_main", "A main() that cleans up",
 
 @whole_main.check(3)
 def counts_down(run: Recording) -> Seconds:
-    """main() makes the node and lets it work: 3, 2, 1."""
+    """main() creates the node and spins it: 3, 2, 1."""
     lines = [line for line in run.logs if re.fullmatch(r"\W*\d", line.text)]
     found, expected = [line.text for line in lines], "the lines 3, 2, 1"
     if not found:
@@ -25,7 +25,7 @@ def counts_down(run: Recording) -> Seconds:
 
 @whole_main.check(4, after=counts_down)
 def ends_quietly(run: Recording) -> Trace:
-    """Ctrl-C leads main() to its end, without a traceback."""
+    """Ctrl-C ends main(), without a traceback."""
     trace = trace_of(run)
     if trace is None:
         hint = "After Ctrl-C nothing may spin again: the try block stands around all of the spinning."

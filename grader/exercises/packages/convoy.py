@@ -60,13 +60,13 @@ def leaves_the_third_alone(run: PackageRun) -> None:
 
 @convoy.check(3, after=drives_both)
 def right_keeps_its_distance(run: PackageRun) -> None:
-    """The right robot stops 1 m before the wall, whatever is asked for."""
+    """The right robot stops 1 m before the wall, whatever the argument."""
     _stops(run, "right", GAPS["right"], 'Its Node has parameters=[{"gap": 1.0}].')
 
 
 @convoy.check(3, after=drives_both, only="plain")
 def left_keeps_its_distance(run: PackageRun) -> None:
-    """The left robot stops 0.5 m before the wall if nothing else is asked for."""
+    """The left robot stops 0.5 m before the wall without an argument."""
     _stops(run, "left", GAPS["left"], 'DeclareLaunchArgument("gap", default_value="0.5") says so.')
 
 

@@ -61,7 +61,7 @@ def has_states(run: PackageRun, read: Read) -> None:
 
 @crates.check(2, after=can_be_read)
 def has_a_service(run: PackageRun, read: Read) -> None:
-    """FindCrates is asked with the heaviest mass, and answers with any number of crates."""
+    """FindCrates has the heaviest mass in its request, and any number of crates in its response."""
     _has(read[FIND], FIND, request=("float64 heaviest",), response=("Crate[] crates",))
 
 
@@ -74,7 +74,7 @@ def has_an_action(run: PackageRun, read: Read) -> None:
 
 @crates.check(2)
 def describes_itself(run: PackageRun) -> None:
-    """package.xml names what makes types of the definitions, and the package whose message they use."""
+    """package.xml names what generates code from the definitions, and the package whose message they use."""
     tags = package_of(run).package_xml.tags
     for name, ways in NEEDS.items():
         if not any(all(name in tags.get(tag, ()) for tag in way.split()) for way in ways):
@@ -85,7 +85,7 @@ def describes_itself(run: PackageRun) -> None:
 
 @crates.check(4)
 def makes_types(run: PackageRun) -> None:
-    """CMakeLists.txt finds what is needed, and hands over each definition."""
+    """CMakeLists.txt finds what is needed, and names each definition."""
     sources = package_of(run).sources
     commands = read_commands(sources[f"{NAME}/CMakeLists.txt"])
     names = [command.name for command in commands]

@@ -33,7 +33,7 @@ def publishes_degrees(run: PackageRun) -> None:
 
 @gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
-    """Each voltage becomes 100 degrees for each volt, less 50; and none comes for one outside 0 to 3.3 V."""
+    """Celsius are 100 times the volts, minus 50; a voltage outside 0 to 3.3 V gives no message."""
     for voltage in voltages(run):
         volts, found = voltage.value.data, voltage.values()
         saw = f"{found[0]:.1f}" if found else "nothing"

@@ -68,7 +68,7 @@ def offers_to_find(run: PackageRun) -> None:
         lambda run, call: any(crate.mass > call.request.heaviest for crate in _crates(call)),
 })
 def finds_crates(run: PackageRun) -> None:
-    """Each request gets the crates that are not heavier, with the values that were scanned last."""
+    """Each response has the crates that are not heavier, with the values that were scanned last."""
     for call in requests_from_course(run, FIND, at_least=2):
         wanted = sorted(crate.label for crate in _right(run, call))
         found = _found(call)

@@ -32,7 +32,7 @@ def measures(run: PackageRun) -> None:
 
 @station.check(5, only="display")
 def shows(run: PackageRun) -> None:
-    """`ros2 run station display` starts the display: each /temperature comes on /display as a text."""
+    """`ros2 run station display` starts the display: each /temperature appears on /display as text."""
     publishes(run, SHOWN, "std_msgs/msg/String")
     for temperature in temperatures(run):
         text = f"{temperature.value.data:.1f}"

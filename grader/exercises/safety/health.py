@@ -54,19 +54,19 @@ def reports(run: Recording) -> None:
 
 @health.check(6, after=reports)
 def knows_the_level(run: Recording) -> None:
-    """The level of each is OK, WARN or ERROR, as its last number says."""
+    """The level of each is OK, WARN or ERROR, according to its last value."""
     _compare([one for one in _reports(run) if one.true not in (None, STALE)])
 
 
 @health.check(4, after=knows_the_level)
 def knows_what_is_stale(run: Recording) -> None:
-    """What has said nothing for more than 1 s is STALE, and nothing else is."""
+    """A part that has been silent for over 1 s is STALE; nothing else is."""
     _compare([one for one in _reports(run) if one.true == STALE])
 
 
 @health.check(3, after=knows_the_level)
 def gives_the_number(run: Recording) -> None:
-    """The values hold the last number: `percent` of the battery (0 to 100), `celsius` of the motor."""
+    """The values hold the last one received: `percent` of the battery (0 to 100), `celsius` of the motor."""
     for one in _reports(run):
         if one.true in (None, STALE):
             continue
@@ -79,7 +79,7 @@ def gives_the_number(run: Recording) -> None:
 
 @health.check(2, after=knows_the_level)
 def stamps_it(run: Recording) -> None:
-    """The header of each array says when it was made."""
+    """The header of each array has the time at which it was made."""
     for row in publishes(run, TOPIC):
         stamp = since_start(row.message.header.stamp)
         if not abs(row.stamp - stamp) < NOW:

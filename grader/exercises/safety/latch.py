@@ -43,7 +43,7 @@ def stands_between(run: Recording) -> None:
 
 @latch.check(4, after=stands_between)
 def lets_through(run: Recording) -> None:
-    """While it is not stopped, each command passes as it is: in the beginning, and after the reset."""
+    """While it is not stopped, each command passes unchanged: at the beginning, and after the reset."""
     when, sent, raw = _times(run), publishes(run, OUT, TWIST), from_course(run, RAW, at_least=10)
     for command in raw:
         wanted, then = speeds(command), Window.after(command.stamp, SOON).rows(sent)
@@ -65,7 +65,7 @@ def lets_through(run: Recording) -> None:
 
 @latch.check(4, after=lets_through)
 def stops(run: Recording) -> None:
-    """When the button is pressed, the robot stands within 0.4 s, as long as it is in."""
+    """When the button is pressed, the robot stops within 0.4 s, and stays stopped while it is in."""
     when = _times(run)
     hint = "Publish an empty Twist as soon as the button says True, and pass nothing on while it is stopped."
     pressed = Window(when.press + BRAKING, min(when.release, requests_from_course(run, RESET)[0].requested))
@@ -82,7 +82,7 @@ def stays_stopped(run: Recording) -> None:
 
 @latch.check(3, after=stops)
 def answers_resets(run: Recording) -> None:
-    """/reset is refused while the button is in or silent (success=False), and granted else (success=True)."""
+    """/reset is refused while the button is in or silent (success=False), else granted (success=True)."""
     granted, cut = _granted(run), _times(run).cut
     for call in requests_from_course(run, RESET):
         broken, released = call.requested > cut, call.requested >= granted.requested
@@ -101,7 +101,7 @@ def answers_resets(run: Recording) -> None:
 
 @latch.check(2, after=(lets_through, stays_stopped))
 def forgets_the_old_speed(run: Recording) -> None:
-    """After the reset the robot stands until a new command comes."""
+    """After the reset the robot stays where it is until a new command comes."""
     when, reset = _times(run), _granted(run).requested
     hint = "The command from before the stop is out of date: a reset moves nothing by itself."
     why = f"from the reset at {reset:.3g} s to the next command"
@@ -110,7 +110,7 @@ def forgets_the_old_speed(run: Recording) -> None:
 
 @latch.check(2, after=lets_through)
 def stops_without_the_button(run: Recording) -> None:
-    """A button that is silent for 0.5 s counts as pressed: the robot stands 1 s after its last word."""
+    """A button that is silent for 0.5 s counts as pressed: the robot stops within 1 s of its last message."""
     when = _times(run)
     hint = "A broken cable can't say True. A timer looks at how long ago the button said something."
     resets = [call for call in requests_from_course(run, RESET) if call.requested > when.cut]

@@ -29,7 +29,7 @@ class CandidateVerdict(NamedTuple):
 
 @mutants.check(2)
 def runs_the_tests(run: Recording) -> None:
-    """The tests are run, and ask the candidates."""
+    """The tests run, and call the candidates."""
     with hinting("" if run.errors else THE_GIVEN):
         subscribes(run, ANSWER, NUMBERS)
         publishes(run, QUESTION, NUMBERS)
@@ -38,7 +38,7 @@ def runs_the_tests(run: Recording) -> None:
 
 @mutants.check(2, after=runs_the_tests)
 def passes_what_is_right(run: Recording) -> list[CandidateVerdict]:
-    """All three right candidates pass, by tests that catch at least one of the others."""
+    """All three right candidates pass, with tests that catch at least one of the others."""
     found = _verdicts(run)
     for one in found:
         if one.right and not one.passed:

@@ -45,7 +45,7 @@ def stands_between(run: Recording) -> None:
 
 @mux.check(5, after=stands_between)
 def passes_the_navigator(run: Recording) -> None:
-    """Before anybody touches the joystick, the robot does as the navigator says."""
+    """Before the joystick is touched, the robot obeys the navigator."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.stamp < first]
     hint = "Remember the navigator's last command and when it came; younger than 0.5 s, and it goes out."
@@ -54,7 +54,7 @@ def passes_the_navigator(run: Recording) -> None:
 
 @mux.check(6, after=passes_the_navigator)
 def joystick_wins(run: Recording) -> None:
-    """While the joystick speaks, it alone counts, also where it says 0."""
+    """While the joystick publishes, it alone counts, even if it sends 0."""
     samples = [sample for sample in _samples(run) if sample.joy]
     stops = [sample for sample in samples if sample.joy == (0.0, 0.0)]
     try:
@@ -67,7 +67,7 @@ def joystick_wins(run: Recording) -> None:
 
 @mux.check(3, after=joystick_wins)
 def gives_back(run: Recording) -> None:
-    """When the joystick has said nothing for 0.5 s, the navigator drives again."""
+    """When the joystick has been silent for 0.5 s, the navigator drives again."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.joy_is_old]
     hint = "The joystick's last command never gets old: compare the time since it came with 0.5 s."
@@ -76,7 +76,7 @@ def gives_back(run: Recording) -> None:
 
 @mux.check(5, after=passes_the_navigator)
 def stands_without_both(run: Recording) -> None:
-    """When both have fallen silent, the robot stands within 1 s, until one of them speaks again."""
+    """When both have fallen silent, the robot stops within 1 s, until one of them publishes again."""
     sent = sorted(row.stamp for topic in (JOY, NAV) for row in from_course(run, topic))
     hint = ("Commands get old, those of both drivers. Look at their ages each time, by the clock, and send "
             "an empty Twist where none is younger than 0.5 s.")

@@ -63,7 +63,7 @@ def responds_to_each(run: Recording) -> None:
 
 @smooth.check(5, after=responds_to_each)
 def gets_there(run: Recording) -> None:
-    """The robot gets what is asked for, as far as the limits allow, within 1.3 s."""
+    """The robot gets the requested speed, as far as the limits allow, within 1.3 s."""
     for pair, steps in _steady(run):
         beyond = (
             abs(pair.sent) > abs(pair.right) and pair.sent * pair.right > 0 and pair.requested != pair.right
@@ -74,7 +74,7 @@ def gets_there(run: Recording) -> None:
 
 @smooth.check(2, after=gets_there)
 def keeps_the_limits(run: Recording) -> None:
-    """Never more than 0.3 m/s and 1 rad/s, either way."""
+    """Never more than 0.3 m/s and 1 rad/s, in either direction."""
     for pair in _pairs(run):
         if not abs(pair.sent) <= pair.axis.most + NEAR:
             saw = f"{pair.sent:.3g} {pair.axis.unit} at {pair.stamp:.3g} s"
@@ -85,7 +85,7 @@ def keeps_the_limits(run: Recording) -> None:
 
 @smooth.check(5, after=gets_there)
 def speeds_up_gently(run: Recording) -> None:
-    """Away from 0, speeds grow by at most 0.025 m/s and 0.1 rad/s with each command, either way."""
+    """Away from 0, speeds grow by at most 0.025 m/s and 0.1 rad/s per command, in either direction."""
     for pair in _pairs(run):
         growth = abs(pair.sent) - (abs(pair.before) if pair.sent * pair.before > 0 else 0.0)
         if not growth <= pair.axis.step + NEAR:
@@ -96,7 +96,7 @@ def speeds_up_gently(run: Recording) -> None:
 
 @smooth.check(2, after=gets_there)
 def stops_at_once(run: Recording) -> None:
-    """To slow down takes no time: a request of 0 is obeyed at once."""
+    """Slowing down takes no time: a request of 0 is obeyed at once."""
     for pair in _pairs(run):
         if pair.requested == 0.0:
             hint = "A limit on braking makes the way to stop longer: step only where the speed grows."

@@ -46,7 +46,7 @@ def wanders_off(run: Recording) -> None:
     "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": otherwise,
 })
 def drives_on(run: Recording) -> None:
-    """It does not get stuck: in 60 s it comes 4 m far, or more."""
+    """It does not get stuck: in 60 s it drives 4 m or more."""
     way = traveled(until_a_touch(run))
     if way < LONG:
         credit = 0.7 * way / LONG if way > 1.0 else 0.0
@@ -67,7 +67,7 @@ def hits_nothing(run: Recording) -> None:
 @avoid.check(4, after=drives_on,
              guess="Drive straight on while it is free ahead, and turn only when it is not.")
 def gets_about(run: Recording) -> None:
-    """It gets about: at some time it is 1 m from where it started, or further."""
+    """It gets around: at some time it is 1 m or more from where it started."""
     start = run.path[0]
     far = max(math.dist(start[1:3], pose[1:3]) for pose in until_a_touch(run).path)
     if far < FAR:

@@ -74,7 +74,7 @@ def stands_between(run: Recording) -> None:
     "Copy the driver's linear.x and angular.z as they are.": otherwise,
 })
 def lets_through(run: Recording) -> list[Moment]:
-    """What is harmless passes: while all is well and 1 m is free ahead, the robot does as the driver asks."""
+    """Harmless commands pass: while all is well and 1 m ahead is free, the robot obeys the driver."""
     moments = list(_moments(run))
     fine = [moment for moment in moments if moment.requested and moment.ahead > FREE]
     wrong = [moment for moment in fine if not (moment.sent and same(moment.sent, moment.requested, 0.05))]
@@ -103,7 +103,7 @@ def keeps_from_hitting(run: Recording) -> None:
 
 @guard.check(2, after=lets_through)
 def lets_turn(run: Recording, moments: list[Moment]) -> None:
-    """Before a wall it takes away the speed ahead only: the driver can still turn the robot."""
+    """In front of a wall it removes only the forward speed: the driver can still turn the robot."""
     for moment in moments:
         turn = moment.requested[1] if moment.requested and moment.ahead < BLOCKED else 0.0
         if turn and not (moment.sent and same(moment.sent[1], turn, 0.05)):
@@ -114,7 +114,7 @@ def lets_turn(run: Recording, moments: list[Moment]) -> None:
 
 @guard.check(3, after=lets_through)
 def stops_without_driver(run: Recording) -> None:
-    """When the driver falls silent, the robot stands within 1 s."""
+    """When the driver falls silent, the robot stops within 1 s."""
     hint = ("Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
             "zeros go out. Otherwise the timer repeats the last command forever.")
     _stands(run, _pauses(run, RAW), "the driver's last command", hint)
@@ -122,7 +122,7 @@ def stops_without_driver(run: Recording) -> None:
 
 @guard.check(3, after=lets_through)
 def stops_without_scans(run: Recording) -> None:
-    """When no scan comes any more, the robot stands within 1 s."""
+    """When no scan comes any more, the robot stops within 1 s."""
     hint = ("No news is bad news. Remember when the last scan came, and look at its age in the timer, not "
             "in the scan's callback: that one isn't called any more.")
     _stands(run, _pauses(run, LIDAR), "the last scan", hint)
@@ -130,7 +130,7 @@ def stops_without_scans(run: Recording) -> None:
 
 @guard.check(2, after=(lets_through, stops_without_scans))
 def stops_with_late_scans(run: Recording) -> None:
-    """When the scans come 1 s late, the robot stands within 1 s."""
+    """When the scans come 1 s late, the robot stops within 1 s."""
     hint = ("Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
             "but the time since it was measured: now minus msg.header.stamp.")
     _stands(run, _delays(run), "the last scan that came in time", hint)

@@ -117,7 +117,7 @@ def _is_in_other_units(value: float, turned: float) -> bool:
 
 @gyro.check(5, after=ends_right)
 def does_not_drift(run: Recording, headings: Headings) -> None:
-    """At the end the robot stands for 8 s, and the heading stands, too: it changes by less than 1 degree."""
+    """At the end the robot stands still for 8 s, and so does the heading: it changes by under a degree."""
     resting = _at_rest(headings)
     if len(resting) < 2:
         raise no_data(run, f"headings from {RESTING:g} s on", f"{len(resting)}", [])

@@ -97,7 +97,7 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
         otherwise,
 })
 def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[SectorValue]:
-    """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
+    """Each is the nearest distance in its direction, 30 degrees to both sides, with any lidar."""
     _all_right(answers, "plain")
     for topic in MIDDLES:
         lasts(run, topic)
@@ -109,7 +109,7 @@ def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[Sec
         otherwise
 })
 def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
-    """Rays that got lost (nan) change nothing."""
+    """Lost rays (nan) change nothing."""
     _all_right(answers, "lost")
 
 
@@ -120,7 +120,7 @@ def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
         otherwise,
 })
 def knows_near_and_far(run: Recording, answers: list[SectorValue]) -> None:
-    """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
+    """If nothing is there, it is inf; something too near to be measured (-inf) is 0.0 m away."""
     _all_right(answers, "near")
     _all_right(answers, "empty")
 

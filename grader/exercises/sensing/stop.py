@@ -56,7 +56,7 @@ def stops_in_time(run: Recording) -> None:
 
 @stop.check(2, after=stops_in_time)
 def publishes_a_stop(run: Recording) -> None:
-    """It stays there, and goes on sending zeros."""
+    """It stays there, and keeps sending zeros."""
     stands_still(run)
     stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
     if speed or run.ended.stamp - stamp > 0.5:

@@ -57,7 +57,7 @@ def leaves_the_start(run: Recording) -> None:
     "0.5 m.": lambda run: True,
 })
 def goes_round(run: Recording) -> None:
-    """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
+    """It goes around the room, with the wall on its right: past all four corners, within 90 s."""
     left, low, right, top = run.world.bounds
     corners = {
         "lower right": (right - MARGIN, low + MARGIN),

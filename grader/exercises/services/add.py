@@ -20,7 +20,7 @@ def offers_to_add(run: Recording) -> None:
 
 @add.check(4, after=offers_to_add, guess="response.sum = request.a + request.b, and then return response.")
 def adds(run: Recording) -> None:
-    """Every question is answered with the sum of its two numbers."""
+    """Every request gets the sum of its two numbers."""
     for call in course_calls(run, ADD):
         total = call.request.a + call.request.b
         if response_fields(call).get("sum") != total:

@@ -39,7 +39,7 @@ def offers_to_arm(run: Recording) -> None:
     ),
 })
 def reports_its_state(run: Recording) -> None:
-    """Every call is answered with success, and with the message `armed` or `disarmed`."""
+    """Every call responds with success, and with the message `armed` or `disarmed`."""
     for call in course_calls(run, ARM, CALLS):
         if not is_success(call) or _words(call) != [_word(call)]:
             raise wrong_response(f"success=True, message={_word(call)!r} for {call_text(call)}", call)
@@ -74,7 +74,7 @@ def drives_while_armed(run: Recording) -> None:
 
 @arming.check(4, after=drives_while_armed)
 def stands_while_disarmed(run: Recording) -> None:
-    """While it is not armed, the robot stands still: at the start, too."""
+    """While it is not armed, the robot stands still, at the start as well."""
     for call, phase in _phases(run, armed=False):
         _stands(phase, f"after {call_text(call)}", NO_MORE)
     ends_with_a_stop(run, credit=0.5)

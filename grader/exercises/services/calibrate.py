@@ -62,7 +62,7 @@ def gyro_reads_zero(run: Recording) -> None:
 
 @calibrate.check(3, after=offers_to_calibrate)
 def reports_the_bias(run: Recording) -> None:
-    """A calibration is answered with success, and its message names the bias it found."""
+    """A calibration responds with success, and its message names the bias it found."""
     for it in _calibrations(run):
         expected = f"success=True and {it.bias:.3f} in the message, for {call_text(it.call)}"
         if not is_success(it.call):

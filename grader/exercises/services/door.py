@@ -19,7 +19,7 @@ door = Exercise("door", "A visitor at the door", world="yard", seconds=14, compa
 
 @door.check(4)
 def calls_the_door(run: Recording) -> list[Call]:
-    """The node asks /door/open (Trigger), although the door comes late."""
+    """The node calls /door/open (Trigger), although the door starts late."""
     made = has_client(run, OPEN, "std_srvs/srv/Trigger")
     taken = [call for call in made if call.taken is not None]
     lost = [call for call in made if call.lost]
@@ -38,7 +38,7 @@ def calls_the_door(run: Recording) -> list[Call]:
 
 @door.check(3, after=calls_the_door)
 def keeps_driving_commands(run: Recording) -> None:
-    """While it waits, the node goes on: a command on /cmd_vel comes 10 times a second."""
+    """While it waits, the node keeps working: a command on /cmd_vel comes 10 times a second."""
     keeps_pace(run, "/cmd_vel", WAITING)
 
 
@@ -58,7 +58,7 @@ def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
 
 @door.check(3, after=calls_the_door)
 def calls_until_yes(run: Recording, answered: list[Call]) -> None:
-    """After a no it asks again, about once a second; after the yes it asks no more."""
+    """After a refusal it calls again, about once a second; after a success it doesn't."""
     pauses = [after.requested - before.answered for before, after in itertools.pairwise(answered)]
     if pauses and max(pauses) < 0.3:
         saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it asks again before the answer is there"
@@ -78,7 +78,7 @@ def calls_until_yes(run: Recording, answered: list[Call]) -> None:
 
 @door.check(3, after=calls_the_door)
 def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
-    """It stands still until the door says yes, and then drives at 0.3 m/s."""
+    """It stands still until the door opens, and then drives at 0.3 m/s."""
     yes = _yes(answered)
     opened = yes.answered if yes else run.ended.stamp
     commands = series(run, "/cmd_vel", "linear.x")

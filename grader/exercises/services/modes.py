@@ -45,7 +45,7 @@ def offers_its_services(run: Recording) -> None:
 
 @modes.check(5, after=offers_its_services, only="operated")
 def drives_as_the_mode_says(run: Recording) -> Seconds:
-    """While it is armed, /cmd_vel says what the mode says; otherwise it says zero."""
+    """While it is armed, /cmd_vel has the mode's command; otherwise zero."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     course_calls(run, ARM, at_least=3)
     pressed = [row.stamp for row in run.messages("/bumper") if row.message.data]
@@ -64,7 +64,7 @@ def drives_as_the_mode_says(run: Recording) -> Seconds:
 
 @modes.check(3, after=offers_its_services)
 def refuses_other_modes(run: Recording) -> None:
-    """A mode that it doesn't know is refused, with a reason; also at the start."""
+    """An unknown mode is refused, with a reason, at the start as well."""
     if not run.calls_of(SET):  # not set in this run
         _starts_with_no_other(run)
         return

@@ -37,13 +37,13 @@ def declares_speed(run: Recording) -> float:
 
 @parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
-    """As long as it isn't set the speed is 0.2, and the robot drives with that."""
+    """Until it is set, the speed is 0.2, and the robot drives with that."""
     _begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
 @parameters.check(4, after=declares_speed, only="tuned")
 def follows_the_setting(run: Recording) -> None:
-    """A new speed takes effect at once: on /cmd_vel, linear.x is what the parameter says."""
+    """A new speed takes effect at once: linear.x on /cmd_vel is the parameter's value."""
     made = course_calls(run, SET, SETTINGS)
     for call in filter(_is_allowed, made):
         if not is_success(call):
@@ -56,7 +56,7 @@ def follows_the_setting(run: Recording) -> None:
 
 @parameters.check(4, after=declares_speed)
 def refuses_other_speeds(run: Recording) -> None:
-    """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing; also at the start."""
+    """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing, at the start as well."""
     if not run.calls_of(SET):  # not set in this run
         _starts_with_no_other(run)
         return

@@ -19,7 +19,7 @@ ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdd
 
 @ticks.check(4)
 def calls_every_second(run: Recording) -> list[Call]:
-    """Once a second the node asks /add_two_ints."""
+    """Once a second the node calls /add_two_ints."""
     made = has_client(run, ADD, "example_interfaces/srv/AddTwoInts")
     due = int(run.seconds) - 1
     if not 0.8 * due <= len(made) <= MOST * run.seconds:
@@ -30,7 +30,7 @@ def calls_every_second(run: Recording) -> list[Call]:
 
 @ticks.check(4, after=calls_every_second)
 def publishes_the_totals(run: Recording, made: list[Call]) -> None:
-    """Each answer is published on /ticks/total (Int64), as soon as it is there."""
+    """Each response is published on /ticks/total (Int64) as soon as it arrives."""
     publishes(run, TOTAL, "std_msgs/msg/Int64")
     for call in made:
         if call.answered is None:
@@ -50,7 +50,7 @@ def publishes_the_totals(run: Recording, made: list[Call]) -> None:
 
 @ticks.check(2, after=calls_every_second)
 def sends_the_newest_ticks(run: Recording, made: list[Call]) -> None:
-    """It asks for the sum of the newest ticks of both wheels."""
+    """Each request has the newest ticks of both wheels."""
     counts = [series(run, f"/ticks/{side}", "data") for side in ("left", "right")]
     for call in made:
         # Two of each: a message published at the moment of the request may arrive before or after it.
@@ -63,5 +63,5 @@ def sends_the_newest_ticks(run: Recording, made: list[Call]) -> None:
 
 @ticks.check(4, after=sends_the_newest_ticks)
 def heart_goes_on(run: Recording) -> None:
-    """The heart beats on at 10 Hz, also while the node waits for an answer."""
+    """The heart keeps beating at 10 Hz, even while the node waits for a response."""
     keeps_pace(run, "/heartbeat", GROUPS)

@@ -32,14 +32,14 @@ def stands_between(run: Recording) -> None:
 
 @joystick.check(3, after=stands_between)
 def passes_commands_on(run: Recording) -> None:
-    """While the joystick speaks, the robot gets its commands, from a tenth of a second later on."""
+    """While the joystick publishes, the robot gets its commands, at most a tenth of a second later."""
     (begin, _), *_ = _silences(run)
     _alike(run, 0.5, begin, "Remember the last command in the callback, and publish it in the timer.")
 
 
 @joystick.check(7, after=passes_commands_on)
 def stops_when_it_falls_silent(run: Recording) -> None:
-    """When the joystick falls silent, zeros go out within 0.4 s, and the robot stands within 1 s."""
+    """When the joystick falls silent, zeros go out within 0.4 s, and the robot stops within 1 s."""
     for begin, end in _silences(run):
         speed = top_speed(run.during(begin + STOPPED, end).path).linear
         for moment, sent in _looks(run, begin + SOON, end):
@@ -62,7 +62,7 @@ def requests_a_deadline(run: Recording) -> None:
 
 @joystick.check(3, after=stops_when_it_falls_silent)
 def goes_on_afterwards(run: Recording) -> None:
-    """When the joystick speaks again, the robot gets its commands again."""
+    """When the joystick publishes again, the robot gets its commands again."""
     guess = "A stop holds until the next command comes: then that one counts."
     ends = [end for _, end in _silences(run)]
     for end, begin in itertools.zip_longest(ends, [begin for begin, _ in _silences(run)][1:]):

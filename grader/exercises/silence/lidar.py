@@ -69,7 +69,7 @@ def receives_every_scan(run: Recording) -> list[Counted]:
     "between the two header stamps: scans also come early or late.": otherwise,
 })
 def counts_all(run: Recording, counted: list[Counted]) -> None:
-    """At the end the count is how many scans have got lost since the first one."""
+    """At the end the count is how many scans were lost since the first one."""
     last = counted[-1]
     if last.count != last.lost:
         expected = f"{last.lost} lost until {last.stamp:.3g} s"

@@ -26,7 +26,7 @@ pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_
 
 @pub.check(3)
 def can_be_read(run: Recording) -> None:
-    """The command can be read, and publishes Twist messages on /cmd_vel."""
+    """The command is valid, and publishes Twist messages on /cmd_vel."""
     try:
         publishes(run, COMMANDS, TWIST)
     except Missed as missed:
@@ -44,7 +44,7 @@ def can_be_read(run: Recording) -> None:
 
 @pub.check(3, after=can_be_read)
 def comes_often_enough(run: Recording) -> None:
-    """The commands come so often, from start to end, that the robot never stops between two."""
+    """The commands come often enough, from start to end, that the robot never stops in between."""
     pause, since = longest_pause(stamps(run.messages(COMMANDS)))
     if pause > TIMEOUT or len(run.messages(COMMANDS)) < 2:
         expected = f"a command every {TIMEOUT:g} s or more often: without one the robot stops"
@@ -60,7 +60,7 @@ def comes_often_enough(run: Recording) -> None:
 
 @pub.check(4, after=can_be_read)
 def drives_the_circle(run: Recording) -> None:
-    """The robot drives once round a circle of 0.5 m radius, to the left, and touches nothing."""
+    """The robot drives once around a circle of 0.5 m radius, to the left, and touches nothing."""
     turns = any(turn for _, turn in series(run, COMMANDS, "angular.z"))
     keeps_clear(run, WIDE if turns else STRAIGHT)
     far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]

@@ -50,7 +50,7 @@ def warns(run: Recording) -> None:
 
 @commands.check(2, after=obeys)
 def logs_nothing_else(run: Recording) -> None:
-    """A word is answered by its own answer and by no other."""
+    """Each word gets its own answer and no other."""
     for row in run.messages(COMMAND):
         if line := _first_contradiction(run, row):
             answer = f"“{DOING[row.message.data]}”" if _is_command(row) else "a warning"

@@ -15,5 +15,5 @@ def publishes_something(run: Recording) -> None:
 
 @greeting.check(3, after=publishes_something)
 def publishes_twice_a_second(run: Recording) -> None:
-    """A greeting goes out twice a second."""
+    """A greeting is published twice a second."""
     rate(run, "/greeting", 2.0)

@@ -51,7 +51,7 @@ def keeps_to_the_line(run: Recording) -> None:
 
 @square.check(3, after=passes_the_corners, guess="After four sides and four corners, send zeros.")
 def closes_the_square(run: Recording) -> None:
-    """After the third corner the robot ends where it began, within 15 cm."""
+    """After the third corner the robot ends where it started, within 15 cm."""
     try:
         passes(run, CORNERS, tolerance=NEAR)
     except Missed as missed:

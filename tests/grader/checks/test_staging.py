@@ -118,7 +118,7 @@ def test_who_publishes_on_a_topic_of_the_course_is_reported_and_judged_no_furthe
     assert float(score) == 2.0
     line, _, right = score.verdicts
     assert (line.sentence, line.expected, line.saw, line.hint) == (
-        "Topics and services of other programs are left to them.",
+        "The node leaves topics and services of other programs alone.",
         "one publisher on /odom: /robot",
         "two, /robot and /robot of yours",
         "Other nodes can't tell the two apart: use a name of your own, or only listen.",

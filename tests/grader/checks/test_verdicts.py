@@ -259,7 +259,7 @@ def test_of_topics_with_two_owners_the_first_is_named_and_carries_no_points():
     line, first, second = judge([sends, paced], spoofing("/odom", "/scan"))
     assert line == Verdict(
         "keeps_apart",
-        "Topics and services of other programs are left to them.",
+        "The node leaves topics and services of other programs alone.",
         0.0,
         "failed",
         0.0,

@@ -84,7 +84,7 @@ def test_work_not_started_says_what_is_to_do():
         saw="This exercise is not started yet: publish a count once a second",
         hint="Write your code, delete the line that raises, and run this cell again.",
         before_start=True,
-        sentence="There is code of yours to run.",
+        sentence="There is code to run.",
     )
 
 
@@ -100,7 +100,7 @@ def test_work_not_started_in_a_callback_counts_as_not_started_too():
 def test_what_a_run_refuses_is_not_taken_for_work_that_is_not_started(program):
     fault = fault_of(program)
     assert fault.saw.startswith("NotImplementedError: ")
-    assert fault.sentence != "There is code of yours to run."
+    assert fault.sentence != "There is code to run."
 
 
 def test_an_error_without_words_and_frames_still_makes_a_sentence():
