@@ -276,7 +276,7 @@ class StaysOutside(Visitor):
 
 
 class ReceiveWithoutFuture(Visitor):
-    def on_message(self):
+    def on_response(self):
         pass
 
 
