@@ -65,7 +65,7 @@ class EmergencyOperator(TimedNode):
     def tick(self, now: float) -> None:
         """Publish the button and call /reset; in the next tick, publish the command.
 
-        So a command comes after a reset and before the button's next message: what lets go then is noticed.
+        So a command comes after a reset and before the button's next message: what releases then is noticed.
         """
         self.ticks += 1
         if self.ticks % 2 == 0:
