@@ -10,16 +10,16 @@ class TestActions(Assignment):
     package = actions
 
     def test_the_lesson_shows_what_it_speaks_of(self):
-        cells = executed("course", self.folder)
+        cells = executed("course", f"{self.folder}/lesson") | executed("course", f"{self.folder}/driving")
         assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
-        assert cells["why-run"].text.endswith("asked at 1.0 s, answered at 7.0 s\n")
+        assert cells["why-run"].text.endswith("requested at 1.0 s, response at 7.0 s\n")
         assert cells["forget-run"].text.endswith("['accepted', 'executing', 'aborted']\n")
         assert "lost: True" in cells["lost-run"].text
         assert cells["reject-run"].text.endswith("[(1.0, 'rejected')]\n")
         assert "did not return a GoalResponse" in cells["reject-true"].text
-        for deaf in ("cancel-run", "threads-group-run"):
+        for deaf in ("deaf-run", "threads-group-run"):
             assert cells[deaf].text.endswith("5.5 s  succeeded\n5.5 s  cancel rejected\n")
-        for received in ("threads-run", "pause-run"):
+        for received in ("cancel-run", "threads-run"):
             assert "status 5, result [0, 1, 1, 2, 3]" in cells[received].text
         assert cells["drive-blind-run"].text == "the robot is at x = 2.76 m, and the goal is executing\n"
         assert "canceled after 0.98 m" in cells["honest-cancel"].text

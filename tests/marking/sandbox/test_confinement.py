@@ -79,7 +79,7 @@ def test_what_stays_with_the_judge_is_imported_before_and_has_no_file(make_comma
 
 
 def test_the_course_itself_may_lie_in_tmp(tmp_path):
-    for package in ("grader", "sim"):
+    for package in ("grader", "sim", "ros_packages/interfaces/build_tools"):
         shutil.copytree(COURSE / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
     attempt = f"""
         import sys
