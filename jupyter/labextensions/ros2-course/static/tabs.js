@@ -5,10 +5,10 @@ import { OPEN_START } from "./start.js";
 const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)_(\w+)\/(\w+)\.ipynb$/;
 
 export function tabName(path) {
-  const [, , number, topic, file] = FILE.exec(path) ?? [];
+  const [, folder, number, topic, file] = FILE.exec(path) ?? [];
   if (!number) return "";
   const subject = topic[0].toUpperCase() + topic.slice(1).replaceAll("_", " ");
-  return `${Number(number)} ${subject}: ${file === "lesson" ? "lesson" : "exercises"}`;
+  return `${Number(number)} ${subject}: ${folder === "course" ? file : "exercises"}`;
 }
 
 export function renameTab(panel) {
@@ -23,20 +23,26 @@ export function renameTab(panel) {
   panel.title.changed.connect(name); // JupyterLab sets the title to the file's name, initially and after a rename
 }
 
-/** The next notebook: a lesson's exercises, then the next lesson; undefined after the last. */
+/** The next notebook: the lesson's other one, its exercises, then the next lesson; undefined after the last. */
 async function nextNotebook(contents, path) {
-  const [, folder, number, topic] = FILE.exec(path) ?? [];
+  const [, folder, number, topic, file] = FILE.exec(path) ?? [];
   if (!number) return undefined;
-  const first = async (folder) => {
+  const notebooks = async (folder) => {
     const { content } = await contents.get(folder).catch(() => ({ content: [] }));
-    return content.find(({ type }) => type === "notebook")?.path;
+    const names = content.filter(({ type }) => type === "notebook").map(({ name }) => name);
+    const first = names.filter((name) => name === "lesson.ipynb");
+    return [...first, ...names.filter((name) => name !== "lesson.ipynb").sort()].map((name) => `${folder}/${name}`);
   };
-  const own = folder === "course" ? await first(`exercises/${number}_${topic}`) : undefined;
-  if (own) return own;
+  if (folder === "course") {
+    const own = (await notebooks(`course/${number}_${topic}`)).filter((each) => !each.endsWith("-new.ipynb"));
+    const later = own.slice(own.findIndex((each) => each.endsWith(`/${file}.ipynb`)) + 1);
+    const [next] = [...later, ...(await notebooks(`exercises/${number}_${topic}`))];
+    if (next) return next;
+  }
   const { content } = await contents.get("course");
   const later = content.filter(({ type, name }) => type === "directory" && /^\d\d_/.test(name) && name.slice(0, 2) > number);
-  const next = later.map((each) => each.path).sort()[0];
-  return next && first(next);
+  const following = later.map((each) => each.path).sort()[0];
+  return following && (await notebooks(following))[0];
 }
 
 /** Buttons for a notebook's toolbar: to the course map, and to the next notebook. */
