@@ -1,5 +1,6 @@
-"""Serves the content of the start page as HTML: the text of course/start.ipynb around the course map."""
+"""Serves the start page as HTML: the text of course/start.ipynb around the course map and three questions."""
 import asyncio
+import datetime
 import json
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from jupyter_server.utils import url_path_join
 from tornado import web
 
 from grader import course_map
+from grader.review_questions import review_html, review_questions
 
 ADDRESS = "ros2-course/start"
 NOTEBOOK = "course/start.ipynb"
@@ -41,7 +43,8 @@ def start_page(root: Path) -> str:
     """The page, with addresses relative to course/. Raises LookupError if `root` has no course."""
     notebook = root / NOTEBOOK
     cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"] if notebook.exists() else []
-    page = course_map(root / "course")._repr_html_()
+    questions = review_html(review_questions(root / "course", datetime.date.today()))
+    page = questions + course_map(root / "course")._repr_html_()
     markdown = mistune.create_markdown(escape=True)
     parts = [markdown("".join(cell["source"])) if cell["cell_type"] == "markdown" else page for cell in cells]
     return "\n".join(parts or [page])

@@ -33,8 +33,8 @@ class Buttons(anywidget.AnyWidget):
     predicted = traitlets.Unicode(allow_none=True).tag(sync=True)
 
     def __init__(self, prediction: Prediction, on_click: Callable[[str], None]) -> None:
-        asked = {"question": prediction.question, "answers": prediction.answers}
-        super().__init__(**asked, predicted=prediction.predicted)
+        traits = {"question": prediction.question, "answers": prediction.answers}
+        super().__init__(**traits, predicted=prediction.predicted)
         self._on_click = on_click
         self.on_msg(self._on_message)
 
