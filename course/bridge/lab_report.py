@@ -8,6 +8,7 @@ import json
 import math
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -74,71 +75,84 @@ def lab_score(bag: str | Path, report: Mapping[str, Any]) -> Score:
     (s), braking (m/s²), distance (m), and predicted (m), by the formula.
     """
     drive = read(bag)
-    verdicts = judge(_checks(drive, stops(drive), report), Recording(), may_end=True)
+    verdicts = judge(_Lab(drive, stops(drive), report).checks(), Recording(), may_end=True)
     return Score("lab", verdicts, title="A real robot: how it stops")
 
 
-def _checks(drive: Drive, found: list[Stop], report: Mapping[str, Any]) -> list[Check]:
-    fastest = max(found, key=lambda stop: stop.speed, default=None)
+@dataclass(frozen=True)
+class _Lab:
+    """A report, the drive in the bag, and the stops that were found in it. Its methods are the checks."""
 
-    def has_stops(run: Recording) -> None:
+    drive: Drive
+    found: list[Stop]
+    report: Mapping[str, Any]
+
+    @property
+    def fastest(self) -> Stop:
+        """The stop from the highest speed."""
+        return max(self.found, key=lambda stop: stop.speed)
+
+    def checks(self) -> list[Check]:
+        """All checks, in order."""
+        first = new_check(self.has_stops, 4, hints=NO_STOP)
+        return [
+            first,
+            new_check(self.names_reliability, 2),
+            new_check(self.measures_scans, 3),
+            new_check(self.measures_reaction, 3, first, hints=REACTION),
+            new_check(self.measures_braking, 3, first, hints=BRAKING),
+            new_check(self.measures_distance, 3, first, hints=DISTANCE),
+            new_check(self.predicts, 3, hints=PREDICTED),
+        ]
+
+    def has_stops(self, run: Recording) -> None:
         """The bag has three stops or more, from speeds that differ by 0.1 m/s at least."""
         expected = f"{ENOUGH} stops or more, {APART:g} m/s apart"
-        speeds = sorted(stop.speed for stop in found)
+        speeds = sorted(stop.speed for stop in self.found)
         text = ", ".join(f"{speed:.2f}" for speed in speeds)
-        if len(found) < ENOUGH:
-            saw = f"{len(found)}: from {text} m/s" if found else "none"
-            raise Missed(expected, saw, about=(drive,))
+        if len(self.found) < ENOUGH:
+            saw = f"{len(self.found)}: from {text} m/s" if self.found else "none"
+            raise Missed(expected, saw, about=(self.drive,))
         if speeds[-1] - speeds[0] < APART:
-            raise Missed(expected, f"{len(found)} stops, from {text} m/s", "Stop from other speeds, too.")
+            saw = f"{len(self.found)} stops, from {text} m/s"
+            raise Missed(expected, saw, "Stop from other speeds, too.")
 
-    def names_reliability(run: Recording) -> None:
+    def names_reliability(self, run: Recording) -> None:
         """The report's scan_reliability is what the lidar's publisher offers."""
-        offered, given = drive.reliability.get("/scan", "unknown"), report.get("scan_reliability")
+        offered, given = self.drive.reliability.get("/scan", "unknown"), self.report.get("scan_reliability")
         allowed = (offered,) if offered != "unknown" else ("reliable", "best_effort")
         if given not in allowed:
             hint = "`ros2 topic info -v /scan` shows it. Write it in small letters: reliable or best_effort."
             raise Missed(" or ".join(allowed), repr(given), hint)
 
-    def measures_scans(run: Recording) -> None:
+    def measures_scans(self, run: Recording) -> None:
         """The report's scan_rate (Hz) and scan_age (s) are those of the bag."""
-        if not drive.scans:
+        if not self.drive.scans:
             raise Missed("scans in the bag", "none on /scan", "Record /scan, too.")
-        _compare(report, "scan_rate", drive.scan_rate, 0.2, 0.0, "Hz")
-        hint = UNIT if _near(_number(report, "scan_age"), MILLI * drive.scan_age, 0.2) else ""
+        _compare(self.report, "scan_rate", self.drive.scan_rate, 0.2, 0.0, "Hz")
+        hint = UNIT if _near(_number(self.report, "scan_age"), MILLI * self.drive.scan_age, 0.2) else ""
         hint = hint or "The time at which a scan was recorded, minus its stamp: the median of all."
-        _compare(report, "scan_age", drive.scan_age, 0.2, 0.005, "s", hint)
+        _compare(self.report, "scan_age", self.drive.scan_age, 0.2, 0.005, "s", hint)
 
-    def measures_reaction(run: Recording) -> None:
+    def measures_reaction(self, run: Recording) -> None:
         """The report's reaction is the time until the fastest stop begins to slow down."""
-        _compare(report, "reaction", fastest.reaction, 0.0, 0.06, "s", about=(fastest,))
+        _compare(self.report, "reaction", self.fastest.reaction, 0.0, 0.06, "s", about=(self.fastest,))
 
-    def measures_braking(run: Recording) -> None:
+    def measures_braking(self, run: Recording) -> None:
         """The report's braking is the deceleration of the fastest stop."""
-        _compare(report, "braking", fastest.braking, 0.2, 0.0, "m/s²", about=(fastest,))
+        _compare(self.report, "braking", self.fastest.braking, 0.2, 0.0, "m/s²", about=(self.fastest,))
 
-    def measures_distance(run: Recording) -> None:
+    def measures_distance(self, run: Recording) -> None:
         """The report's distance is what the robot drives after the first command of 0."""
-        _compare(report, "distance", fastest.distance, 0.1, 0.02, "m", about=(fastest,))
+        _compare(self.report, "distance", self.fastest.distance, 0.1, 0.02, "m", about=(self.fastest,))
 
-    def predicts(run: Recording) -> None:
+    def predicts(self, run: Recording) -> None:
         """The report's predicted is the distance by the formula of lesson 5, with its own numbers."""
-        v, t, a = (_number(report, name) for name in ("speed", "reaction", "braking"))
+        v, t, a = (_number(self.report, name) for name in ("speed", "reaction", "braking"))
         if not a:
             raise Missed("a braking above 0", "0 m/s²", "Measure it first.")
         wanted = v * t + v * v / (2 * a)
-        _compare(report, "predicted", wanted, 0.02, 0.001, "m", about=(v, t, a), source="by the formula")
-
-    first = new_check(has_stops, 4, hints=NO_STOP)
-    return [
-        first,
-        new_check(names_reliability, 2),
-        new_check(measures_scans, 3),
-        new_check(measures_reaction, 3, first, hints=REACTION),
-        new_check(measures_braking, 3, first, hints=BRAKING),
-        new_check(measures_distance, 3, first, hints=DISTANCE),
-        new_check(predicts, 3, hints=PREDICTED),
-    ]
+        _compare(self.report, "predicted", wanted, 0.02, 0.001, "m", about=(v, t, a), source="by the formula")
 
 
 def _number(report: Mapping[str, Any], name: str) -> float:
