@@ -11,7 +11,6 @@ NEAR = 10  # minutes between the time that a lesson shows and its estimate
 # Still to be split.
 TOO_LONG = (
     "03_services/lesson",
-    "05_sensing/lesson",
     "08_joints/lesson",
     "13_delivery/lesson",
 )

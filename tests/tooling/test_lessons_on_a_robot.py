@@ -144,7 +144,7 @@ def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
 def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
     raw = {"Blind": ["-r", "/cmd_vel:=/cmd_vel_raw"]}
     names, until = ["WholeGuard", "Blind"], "received['/cmd_vel'].count(0.4) > 20"
-    found = ran(yard, tmp_path / "errors", "05_sensing", names, until=until, listen=COMMANDS, **raw)
+    found = ran(yard, tmp_path / "errors", "05_sensing/guarding", names, until=until, listen=COMMANDS, **raw)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
     assert found["received"]["/cmd_vel"][-1] == 0.4
 

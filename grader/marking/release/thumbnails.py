@@ -28,6 +28,7 @@ SHOWN = {
     "03_services/lesson": ("set-run", "world"),
     "04_actions/lesson": ("whole-run", "graph"),
     "04_actions/driving": ("together-run", "world"),
+    "05_sensing/guarding": ("whole-run", "world"),
     "06_navigator/lesson": ("avoid-maze-run", "world"),
     "06_navigator/navigating": ("whole-run", "world"),
 }
