@@ -12,6 +12,7 @@ import pytest
 import grader
 import grader.exercises
 from grader.catalog import exercises
+from grader.marking.student_process.course_modules import SERVED
 
 TOPICS = [module.name for module in pkgutil.iter_modules(grader.exercises.__path__)]
 CLOSED = tuple(f"grader.{name}" for name in ("exercises.", "companions", "geometry", "responses", "worlds",
@@ -65,6 +66,8 @@ THERE = {
     "checks.frames": ("Broadcast between", "which transforms were published when"),
     "checks.interface_definitions": ("InterfacePart _form _lines _part _read _reason read_definition",
                                      "reads what a student wrote"),
+    "checks.ci_workflow": ("_commands _fails_with_a_test _has_ros _names _runs_in_order _steps read_workflow "
+                           "require_tests", "reads what a student wrote"),
     "checks.cmake_lists": ("Blocks CMakeCommand _all_hold _holds _is_simple _is_true _put_in _split _tokens "
                            "_unread _written read_commands", "reads what a student wrote"),
     "checks.joints": ("JointLimits _cross _filled", "a margin to limits, and points between points"),
@@ -114,9 +117,9 @@ ERRORS = "ModuleNotFoundError", "ImportError", "IndexError", "AttributeError", "
 def test_notebooks_import_their_package_and_nothing_else_that_holds_answers(start_student, topic):
     student = start_student(packages=[f"grader.exercises.{topic}"])
     names = student.text(IMPORT_ALL.format(names=WITH_ANSWERS)).split()
-    assert names == ["grader.companions.main_observer", f"grader.exercises.{topic}"]
+    assert names == [*SERVED, f"grader.exercises.{topic}"]
     assert student.text(EMPTY_GLOBALS.format(topic=topic)) == ""
-    public = vars(importlib.import_module(names[1]))
+    public = vars(importlib.import_module(names[-1]))
     here = student.text(f"from grader.exercises import {topic}\nprint(*vars({topic}))").split()
     assert [name for name in public if not hasattr(public[name], "__path__") and name not in here] == []
 
