@@ -35,6 +35,7 @@ PRIVATE_SECONDS = 1500.0  # of simulated time, for which an exercise is tried wi
 LEAST_ORDERS, ORDERS_OF_PACKAGES = 50, 8  # tried with each exercise; tests.exercises.orders tries more
 ORDERS = {"13_delivery": 200}
 LONG = 15.0  # s of simulated time, of all runs of an exercise
+LONGEST = 1000.0  # s of simulated time: of what takes that long, only three rows are run each day
 # The docstring of a node says so, or the line that makes it.
 DESIGN = re.compile(
     r'^(?:class|def) (\w+)\b[^\n]*:\n    """A design of its own: |^(\w+) = [^\n]*# a design of its own', re.M
@@ -125,7 +126,8 @@ class Assignment:
         first, reported = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
         judge = cls.judge(exercise)
         slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
-        rare = slow and node not in cls.telling(exercise)
+        daily = cls.telling(exercise)[: 3 if simulated(judge) >= LONGEST else None]
+        rare = slow and node not in daily
         marks = [pytest.mark.soak] if rare else []
         marks += [pytest.mark.pythons] if node in first or RAISED.search(reported) else []
         return pytest.param(exercise, node, marks=marks)

@@ -12,13 +12,13 @@ from tests.patience import PATIENCE
 from tests.sim.standalone.programs import environment, robot
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = {"03_services": "circler", "05_sensing": "guard", "09_frames": "mount"}
+PROGRAMS = {"03_services/lesson": "circler", "05_sensing/guarding": "guard", "09_frames/lesson": "mount"}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 
 
 def blocks(lesson, language):
     """The blocks of a language in the lesson's section on the package; "" for a terminal's."""
-    cells = json.loads((ROOT / "course" / lesson / "lesson.ipynb").read_text("utf-8"))["cells"]
+    cells = json.loads((ROOT / "course" / f"{lesson}.ipynb").read_text("utf-8"))["cells"]
     [text] = ["".join(cell["source"]) for cell in cells if cell["id"] == "own-package"]
     return [block for kind, block in BLOCK.findall(text) if kind == language]
 
@@ -38,7 +38,7 @@ def terminal(**more):
 
 def write_package(folder):
     """Write the package as the three lessons do, with their lines of setup.py, and build it."""
-    subprocess.run(["bash", "-ec", blocks("03_services", "")[0]], cwd=folder, env=terminal(), check=True)
+    subprocess.run(["bash", "-ec", blocks("03_services/lesson", "")[0]], cwd=folder, env=terminal(), check=True)
     package = folder / "work/my_ws/src/my_nodes"
     for lesson, program in PROGRAMS.items():
         (package / "my_nodes" / f"{program}.py").write_text(blocks(lesson, "python")[0])
@@ -49,7 +49,7 @@ def write_package(folder):
         else ""
     )
     old = made or "'circler = my_nodes.circler:main'"
-    lines = blocks("05_sensing", "python")[1].strip() + "\n'mount = my_nodes.mount:main',\n"
+    lines = blocks("05_sensing/guarding", "python")[1].strip() + "\n'mount = my_nodes.mount:main',\n"
     assert old in setup.read_text()
     setup.write_text(setup.read_text().replace(old, lines))
     subprocess.run(["colcon", "build"], cwd=folder / "work/my_ws", env=terminal(), check=True)
@@ -61,7 +61,7 @@ def test_the_programs_of_the_three_lessons_run_beside_a_robot(tmp_path):
     with robot("--world", "room", "--headless") as room:
         domain = {"ROS_DOMAIN_ID": str(room.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         source = "cd work/my_ws && source install/setup.bash && exec"
-        through = blocks("05_sensing", "")[1].strip()
+        through = blocks("05_sensing/guarding", "")[1].strip()
         started = [
             subprocess.Popen(["bash", "-c", f"{source} {command}"], cwd=tmp_path, env=terminal(**domain))
             for command in ("ros2 run my_nodes guard", "ros2 run my_nodes mount", through)

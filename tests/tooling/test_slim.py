@@ -45,7 +45,7 @@ def names(environment: Path) -> set[str]:
 
 def test_tests_of_packages_and_maps_of_scripts_go_and_nothing_else(environment):
     before = names(environment)
-    slim.remove_what_no_one_runs(environment)
+    slim.remove_unused_files(environment)
     assert before - names(environment) == {
         f"{PACKAGES}/a/tests/__init__.py",
         f"{PACKAGES}/a/tests/more/tests/__init__.py",

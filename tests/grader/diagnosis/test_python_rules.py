@@ -60,7 +60,7 @@ def test_code_that_cannot_be_read_is_shown_at_the_line_of_the_fault_not_at_its_i
 def test_a_ray_without_a_distance_is_named_with_what_it_means():
     assert find_fault(record("MapsEveryRay", mistakes.Scanner)).hint == (
         "In the scan of 0.5 s ray 1 says inf (nothing is there), ray 3 says -inf (something is too near to be "
-        "measured), ray 5 says nan (the ray got lost, and every comparison with nan is False). Ask `math.isfinite(distance)` before you calculate with it."
+        "measured), ray 5 says nan (the ray got lost, and every comparison with nan is False). Check `math.isfinite(distance)` before you calculate with it."
     )
 
 
