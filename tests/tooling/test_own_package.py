@@ -38,7 +38,8 @@ def terminal(**more):
 
 def write_package(folder):
     """Write the package as the three lessons do, with their lines of setup.py, and build it."""
-    subprocess.run(["bash", "-ec", blocks("03_services/lesson", "")[0]], cwd=folder, env=terminal(), check=True)
+    commands = blocks("03_services/lesson", "")[0]
+    subprocess.run(["bash", "-ec", commands], cwd=folder, env=terminal(), check=True)
     package = folder / "work/my_ws/src/my_nodes"
     for lesson, program in PROGRAMS.items():
         (package / "my_nodes" / f"{program}.py").write_text(blocks(lesson, "python")[0])
