@@ -27,9 +27,15 @@ def failure_of(data: RunData) -> str:
 
 
 def first_line(text: str, kind: str) -> str:
-    """The first line of an error's text, without the place that a syntax error repeats in it."""
+    """The first line of an error's text.
+
+    It is without the place that a syntax error repeats in it, and without the file of the module that an
+    ImportError names: a path of the machine that ran it.
+    """
     if kind in UNREADABLE:
         text = re.sub(r" \([^()]+, line \d+\)$", "", text)
+    if kind == "ImportError":
+        text = re.sub(r" \((?:[^()]*/[^()]*|unknown location)\)$", "", text)
     return text.strip().split("\n")[0] or "no message"
 
 
