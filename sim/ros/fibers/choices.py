@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from sim.evidence import Departure
 from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
@@ -28,6 +29,7 @@ class Choices:
         self._departures, self._now = departures, now
         self._preemptions = 0
         self._listed: set[tuple[Nanoseconds, str]] = set()
+        self._earliest: dict[tuple[Any, ...], float] = {}
 
     def list(self, draw: Draw, node: str, kind: str, text: str) -> None:
         """A choice departs from the usual one. Each is listed once at a time."""
@@ -99,12 +101,11 @@ class Choices:
         program = fiber.process
         program.visits[function, line] += 1
         visit = program.visits[function, line]
-        draw = self.order.draw("thread", program.key, function, line, visit)
         if self.order.only is None:
-            at = self.order.draw("line", program.key, function, line)
-            picked = at.chance < PICKED_LINES * self.order.intensity
-            if not picked or visit < LATE_VISITS**at.value or self._preemptions >= MOST_PREEMPTIONS:
+            begin = self._earliest_visit(program.key, function, line)
+            if visit < begin or self._preemptions >= MOST_PREEMPTIONS:
                 return None
+        draw = self.order.draw("thread", program.key, function, line, visit)
         if not self.order.departs(draw, 0.5):
             return None
         self._preemptions += 1
@@ -112,6 +113,17 @@ class Choices:
         self.list(draw, program.key, "thread", text)
         longest = nanoseconds(2 * self.order.spread)
         return Preempted(int(max(0.0, 2 * draw.value - 1) * longest), draw.value < 0.25 and longest)
+
+    def _earliest_visit(self, *line: Any) -> float:
+        """From which execution of a line on its thread may be preempted there; infinite where it never is.
+
+        Drawn once for each line: a loop passes here a million times, and that counts as its computing.
+        """
+        if line not in self._earliest:
+            draw = self.order.draw("line", *line)
+            picked = draw.chance < PICKED_LINES * self.order.intensity
+            self._earliest[line] = LATE_VISITS**draw.value if picked else math.inf
+        return self._earliest[line]
 
 
 class Preempted(NamedTuple):

@@ -6,7 +6,7 @@ import linecache
 import sysconfig
 import traceback
 from pathlib import Path
-from types import FrameType
+from types import CodeType, FrameType
 
 _COURSE = Path(__file__).parents[3]
 # Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
@@ -21,8 +21,14 @@ def is_library(filename: str) -> bool:
 
 def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
     """The frames of an exception that are the student's own."""
-    frames = traceback.extract_tb(error.__traceback__)
-    return [frame for frame in frames if not is_library(frame.filename)]
+    own = []
+    at = error.__traceback__
+    for frame in traceback.extract_tb(error.__traceback__):
+        if not is_library(frame.filename):
+            line = frame.lineno or line_at(at.tb_frame.f_code, at.tb_lasti)
+            own.append(frame if frame.lineno else traceback.FrameSummary(frame.filename, line, frame.name))
+        at = at.tb_next
+    return own
 
 
 def student_traceback(error: BaseException) -> str:
@@ -38,11 +44,22 @@ def text_of(error: BaseException) -> str:
         return f"<{type(error).__name__} without text>"
 
 
+def line_at(code: CodeType, instruction: int) -> int:
+    """The line of the instruction at this offset of the code.
+
+    Python's compiler gives some of a loop's jumps no line, and then a frame has none while a signal is
+    handled there. Their line is that of the last instruction before them that has one.
+    """
+    lines = [line for begin, _, line in code.co_lines() if begin <= instruction and line is not None]
+    return lines[-1] if lines else code.co_firstlineno
+
+
 def student_line(frame: FrameType | None) -> str:
     """Where in the student's own code a stack is, for the end of a sentence."""
     while frame is not None and is_library(frame.f_code.co_filename):
         frame = frame.f_back
     if frame is None:
         return ""
-    text = linecache.getline(frame.f_code.co_filename, frame.f_lineno).strip()
-    return f", at line {frame.f_lineno}: {text}" if text else f", at line {frame.f_lineno}"
+    line = frame.f_lineno or line_at(frame.f_code, frame.f_lasti)
+    text = linecache.getline(frame.f_code.co_filename, line).strip()
+    return f", at line {line}: {text}" if text else f", at line {line}"
