@@ -2,7 +2,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.exercises.builds import kept_builds
+# A failed assertion of the tests that all assignments share shows what differs.
+pytest.register_assert_rewrite("tests.exercises.assignment")
+
+from tests.exercises.builds import kept_builds  # noqa: E402
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -3,12 +3,14 @@
 A timer signal checks four times a second. If the same stretch of student code has run since, and has used
 too much computing time, or waited too long in a call that the hooks don't reach, an exception is raised in
 it. Code that swallows even that is parked. A loop that polls what others of its program do works on a robot,
-and waits for them here. Computing time is what is measured, so that a busy machine changes no result.
+and waits for them here. So that a busy machine changes no result, computing time is what is measured, and
+wall time doesn't pass while the thread is ready to run and no core is free.
 """
 
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 import sys
 import threading
@@ -37,6 +39,8 @@ BUSY_CHECK = 0.01  # s of computing in which a busy loop sees what others have d
 BUSY_TRIES = 100  # checks of a busy loop until it is found in the student's own code
 IDLE = 0.001  # s of computing time between two checks; more is no waiting, however busy the machine
 
+SCHEDULING = "/proc/thread-self/schedstat"
+
 # What must not be interrupted: the course's own code, and imports, which hold a real lock.
 UNINTERRUPTIBLE = str(Path(__file__).parents[2]), "<frozen "
 
@@ -48,6 +52,19 @@ def _can_switch(frame: FrameType | None) -> bool:
             return False
         frame = frame.f_back
     return frame is not None
+
+
+def wall_time() -> float:
+    """Seconds of wall time in which this thread could have run; only their differences have a meaning."""
+    try:
+        file = os.open(SCHEDULING, os.O_RDONLY)
+    except OSError:  # a kernel without these statistics
+        return monotonic()
+    try:
+        _, queued, _ = os.read(file, 100).split()  # proc(5): ns on a core, ns in the queue for one, turns
+    finally:
+        os.close(file)
+    return monotonic() - int(queued) / SECOND
 
 
 class Guard:
@@ -65,7 +82,7 @@ class Guard:
         self._second, self._wall = 0, 0.0  # the simulated second under way, and the wall time that it took
         self._total_limit = max(TOTAL_LIMIT, recorder.recording.seconds)
         self._seen = self._left = thread_time()
-        self._checked = monotonic()
+        self._checked = wall_time()
         self._next_check = CHECK_EVERY
         self._raised = 0
 
@@ -76,7 +93,7 @@ class Guard:
             yield
             return
         self._seen += thread_time() - self._left
-        self._checked = monotonic()
+        self._checked = wall_time()
         interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
         alarm = signal.signal(signal.SIGALRM, self._check)
         users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_check, CHECK_EVERY)
@@ -122,9 +139,9 @@ class Guard:
 
     def _check(self, number: int, frame: FrameType | None) -> None:
         fiber, stretch, computed = self._student_code(), self._work(), self._computed()
-        now = monotonic()
+        now = wall_time()
         # No more than the interval: a machine that was suspended has not waited.
-        passed, self._checked = min(now - self._checked, CHECK_EVERY), now
+        passed, self._checked = min(max(now - self._checked, 0.0), CHECK_EVERY), now
         second = self._scheduler.now // SECOND
         self._second, self._wall = second, passed + (self._wall if second == self._second else 0.0)
         if fiber is None or stretch != self._stretch:

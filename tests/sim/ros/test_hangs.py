@@ -1,6 +1,7 @@
 """Code that never gives control back is stopped and named; the next run in the same process is as usual."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -75,6 +76,27 @@ def test_a_call_that_no_one_answers_is_interrupted(usual, monkeypatch):
         "hang", 1.0, "Pipe.tick of node /hanging at t = 1 s waited for 1 s in a call that simulated time "
         f"can't shorten, at line {line}: os.read(read, 1).",
     )  # fmt: skip
+
+
+def test_time_in_which_no_core_is_free_is_no_waiting(usual, monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 0.3)
+    monkeypatch.setattr(guard, "wall_time", lambda: 0.0)
+    recording = run(hangs.WaitsForASecond, seconds=2, quiet=True)
+    assert why(recording) == ("time", 2.0, "All 2 s were run.")
+
+
+def test_wall_time_is_without_that_in_the_queue_for_a_core(tmp_path, monkeypatch):
+    statistics = tmp_path / "schedstat"
+    statistics.write_text("17 2000000000 3\n")
+    monkeypatch.setattr(guard, "SCHEDULING", str(statistics))
+    monkeypatch.setattr(guard, "monotonic", lambda: 10.0)
+    assert guard.wall_time() == 8.0
+    statistics.unlink()
+    assert guard.wall_time() == 10.0
+
+
+def test_the_kernel_says_how_long_a_thread_was_in_the_queue():
+    assert Path(guard.SCHEDULING).read_text().split()[1].isdigit()
 
 
 def test_many_short_waits_in_real_time_have_an_end(usual, monkeypatch):

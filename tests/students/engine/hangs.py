@@ -134,6 +134,17 @@ class Pipe(Hanging):
             os.close(write)
 
 
+class WaitsForASecond(Hanging):
+    """A call into the system that takes a second of real time, once."""
+
+    waited = False
+
+    def tick(self):
+        if not self.waited:
+            self.waited = True
+            select.poll().poll(1000)
+
+
 class WaitsALittle(Hanging):
     """A thread that waits in the operating system again and again, each time for 20 ms of real time."""
 
