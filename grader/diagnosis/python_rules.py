@@ -56,6 +56,11 @@ PYTHON_RULES = (
         "For a pause, await a future that a timer completes, or let a timer call the next step.",
     ),
     Rule(
+        "RuntimeError", r"await wasn't used with future",
+        "rclpy runs this coroutine, and can't wait for a future of asyncio. Start a task of asyncio in the "
+        "callback, `asyncio.create_task(...)`, and return at once.",
+    ),
+    Rule(
         "OverflowError", r"cannot convert float infinity to integer",
         "inf and -inf have no whole number: ask `math.isfinite(number)` first.",
     ),

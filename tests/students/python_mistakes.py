@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import rclpy
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
@@ -98,6 +99,18 @@ class WritesNonsense(Imports):
 class SleepsWithAsyncio(Worker):
     async def tick(self):
         await asyncio.sleep(0.1)
+
+
+def awaits_in_asyncios_loop():
+    """asyncio drives rclpy, and a callback of rclpy awaits what is asyncio's."""
+
+    async def spinning(node):
+        while rclpy.ok():
+            rclpy.spin_once(node, timeout_sec=0.0)
+            await asyncio.sleep(0.02)
+
+    rclpy.init()
+    asyncio.run(spinning(SleepsWithAsyncio()))
 
 
 class OpensNoFile(Worker):

@@ -4,6 +4,7 @@ from grader.checks import questions
 from grader.companions.blind_drivers import turner
 from grader.companions.faulty_perception import partners
 from grader.companions.map_messages import KEPT, flat, listed, seconds, stamped
+from grader.companions.parcel_database import scanner, shelf_of
 from grader.companions.planned_nodes import ShelfCamera, publishes, sketch, subscribes
 from grader.companions.robot_programs import programs, shift_of
 from grader.companions.scripted_orders import desk
@@ -12,6 +13,7 @@ from grader.exercises.delivery.decide import decide
 from grader.exercises.delivery.deliver import deliver
 from grader.exercises.delivery.gate import gate
 from grader.exercises.delivery.perceive import perceive
+from grader.exercises.delivery.shelves import shelves
 from grader.geometry.floor import Floor, far_from, points_of, steer
 from grader.worlds.crossing import crossing
 from grader.worlds.warehouses import floor_of, hall, warehouse
