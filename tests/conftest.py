@@ -6,6 +6,7 @@ import asyncio
 import functools
 import os
 import shutil
+import signal
 import subprocess
 from collections import Counter
 from collections.abc import Generator, Iterator
@@ -47,6 +48,12 @@ class ByFile(LoadScopeScheduling):
             return "cluster"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
+
+
+def pytest_configure() -> None:
+    """Let Ctrl-C reach tests, also where the shell that started them ignores it in background jobs."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_xdist_auto_num_workers() -> int:
