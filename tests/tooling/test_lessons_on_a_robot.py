@@ -127,7 +127,7 @@ def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
 ])  # fmt: skip
 def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path, circler, words):
     radius = {circler: ["-p", "radius:=0.0"]}
-    found = ran(yard, tmp_path / "errors", "03_services", [circler], alone=True, **radius)
+    found = ran(yard, tmp_path / "errors", "03_services/parameters", [circler], alone=True, **radius)
     assert found["ended"] == [1], found["errors"]
     assert words in found["errors"].splitlines()[-1]
 

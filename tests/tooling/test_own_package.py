@@ -12,7 +12,7 @@ from tests.patience import PATIENCE
 from tests.sim.standalone.programs import environment, robot
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = {"03_services/lesson": "circler", "05_sensing/guarding": "guard", "09_frames/lesson": "mount"}
+PROGRAMS = {"03_services/parameters": "circler", "05_sensing/guarding": "guard", "09_frames/lesson": "mount"}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 
 
@@ -38,7 +38,7 @@ def terminal(**more):
 
 def write_package(folder):
     """Write the package as the three lessons do, with their lines of setup.py, and build it."""
-    commands = blocks("03_services/lesson", "")[0]
+    commands = blocks("03_services/parameters", "")[0]
     subprocess.run(["bash", "-ec", commands], cwd=folder, env=terminal(), check=True)
     package = folder / "work/my_ws/src/my_nodes"
     for lesson, program in PROGRAMS.items():

@@ -25,7 +25,6 @@ LESSONS = "course/[0-9][0-9]_*/*.ipynb"
 # Lessons whose goal is a diagram in text: the cell that shows it later, and how it is drawn.
 SHOWN = {
     "02_topics/lesson": ("together-run", "graph"),
-    "03_services/lesson": ("set-run", "world"),
     "04_actions/lesson": ("whole-run", "graph"),
     "04_actions/driving": ("together-run", "world"),
     "05_sensing/guarding": ("whole-run", "world"),
