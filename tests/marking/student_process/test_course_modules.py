@@ -81,6 +81,7 @@ THERE = {
     "checks.topics": ("longest_pause", "a pause between stamps"),
     "checks.twists": ("speeds_text", "words of a miss"),
     "companions.crates": ("crates", "the judge starts these; here they lack all that they use"),
+    "companions.parcel_database": ("seconds_for stored", "the database itself, which the answer awaits"),
     "companions.scripted_orders": ("Script ScriptedOrder Situation situations", "needs the private seed"),
     "companions.silent_systems": ("_misspelt cases", "needs the private seed"),
     "companions.speakers": ("QuestionPublisher Speaker plans speakers", "needs the private seed"),
