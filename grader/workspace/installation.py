@@ -95,6 +95,15 @@ def ros2_launch(_: Any, package: str, file: str, *arguments: str) -> str:
     return " ".join([package, file, *arguments])
 
 
+def typed_in_terminals(workspace: Any, package: str) -> Any:
+    """A `prepare` for scenarios: what session.txt of the package says, typed in terminals."""
+    from sim.ros2.typed_session import terminals
+
+    file = Path(os.fspath(workspace), "src", package, "session.txt")
+    text = file.read_text("utf-8", "replace") if file.is_file() else ""
+    return terminals(text, _prefixes[-1])
+
+
 def read_sources(workspace: Any, package: str) -> dict[str, bytes]:
     """The sources of one package of a workspace. Raises InvalidFiles."""
     found = read_files(Path(os.fspath(workspace)) / "src" / package, f"ws/src/{package}")

@@ -10,20 +10,27 @@ import rclpy
 from rclpy.exceptions import NameValidationException
 
 from sim.ros.engine.program import Process
+from sim.ros.launching.files import NoLaunchFile, find_launch_file
+from sim.ros.launching.launch_program import as_launch_program
+from sim.ros.packages import ExecutableNotFound, PackageNotFound, executable
+from sim.ros2.group import UsageError
 from sim.ros2.live import LiveSystem
-from sim.ros2.parser import execute, make_parser
+from sim.ros2.parser import FAILED, execute, make_parser
 from sim.ros2.system import OWN_NAME, CliError, NodeTask, Output, T
+
+NOT_FOUND = 127  # exit status, as bash's
 
 
 def terminal(command: str | Callable[[], str]) -> Process:
     """A program for `run` that executes a command, such as "ros2 topic hz /scan".
 
     command: the whole command, "ros2" included, or a function that returns it when the program starts.
-    An invalid command prints an error, as in a terminal, and the program ends.
+    An invalid command prints an error, as in a terminal, and the program ends. The program of `ros2 run` or
+    `ros2 launch` takes its place.
     """
 
-    def ros2() -> None:  # the program's name
-        _execute_line(command() if callable(command) else command)
+    def ros2() -> Process | int:  # the program's name
+        return _execute_line(command() if callable(command) else command)
 
     return Process(ros2)
 
@@ -36,23 +43,46 @@ def ros2() -> None:
 ros2.bundled = True  # not the student's
 
 
-def _execute_line(line: str) -> None:
-    if not isinstance(line, str):
-        print(f"{line!r} is not a command: expected a text such as 'ros2 topic list'.")
-        return
-    try:
-        name, *arguments = shlex.split(line, comments=True) or [""]
-    except ValueError as error:
-        print(f"{line!r} can't be read: {error}.")
-        return
+def execute_words(words: Sequence[str]) -> Process | int:
+    """Execute a command; returns its exit status, or the program that `ros2 run` or `ros2 launch` starts."""
+    name, *arguments = words
     if name != "ros2":
         print(f"{name}: command not found")
-        return
-    _execute(arguments)
+        return NOT_FOUND
+    if arguments[:1] in (["run"], ["launch"]):
+        try:
+            return _started(arguments)
+        except (UsageError, PackageNotFound, ExecutableNotFound, NoLaunchFile) as error:
+            print(error)
+            return FAILED
+    return _execute(arguments)
 
 
-def _execute(arguments: Sequence[str]) -> None:
-    execute(make_parser(), list(arguments), lambda _: RunSystem(print), print, print)
+def _execute_line(line: str) -> Process | int:
+    if not isinstance(line, str):
+        print(f"{line!r} is not a command: expected a text such as 'ros2 topic list'.")
+        return FAILED
+    try:
+        words = shlex.split(line, comments=True) or [""]
+    except ValueError as error:
+        print(f"{line!r} can't be read: {error}.")
+        return FAILED
+    return execute_words(words)
+
+
+def _started(arguments: Sequence[str]) -> Process:
+    """The program of `ros2 run` or `ros2 launch`. Raises what `execute_words` prints."""
+    options = make_parser(typed=arguments).parse_args(arguments)
+    if options.command == "run":
+        main = executable(options.package_name, options.executable_name)
+        return Process(main, arguments=options.argv)
+    given = [options.package_name, options.launch_file_name, *options.launch_arguments]
+    path, rest = find_launch_file([each for each in given if each is not None])
+    return as_launch_program(Process(path, arguments=rest))
+
+
+def _execute(arguments: Sequence[str]) -> int:
+    return execute(make_parser(), list(arguments), lambda _: RunSystem(print), print, print)
 
 
 class RunSystem(LiveSystem):

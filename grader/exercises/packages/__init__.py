@@ -2,6 +2,7 @@
 
 from grader.companions.package_sensors import VoltageProbe, WeatherStation
 from grader.companions.patrol_package import repaired
+from grader.companions.watchman_package import write_watchman
 from grader.exercises.packages.convoy import LANES, convoy
 from grader.exercises.packages.crates import crates
 from grader.exercises.packages.gauge import gauge
@@ -9,10 +10,11 @@ from grader.exercises.packages.greeter import greeter
 from grader.exercises.packages.keeper import keeper
 from grader.exercises.packages.limiter import limiter
 from grader.exercises.packages.patrol import patrol
+from grader.exercises.packages.session import session
 from grader.exercises.packages.station import station
 from grader.trial import see
 
 __all__ = [
     "LANES", "VoltageProbe", "WeatherStation", "convoy", "crates", "gauge", "greeter", "keeper",
-    "limiter", "patrol", "repaired", "see", "station",
+    "limiter", "patrol", "repaired", "see", "session", "station", "write_watchman",
 ]

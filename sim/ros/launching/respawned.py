@@ -46,6 +46,12 @@ def kill(run: Any, process: Any) -> None:
             fiber.thrown = RunOver()
 
 
+def interrupt(process: Any) -> None:
+    """Interrupt a program of the run, as Ctrl-C in its terminal does."""
+    process.shut_down()
+    process.main.thrown = KeyboardInterrupt()
+
+
 def _sleep(seconds: float) -> None:
     run = engine()
     run.wait("time", until=run.now + round(seconds * SECOND))

@@ -17,7 +17,7 @@ from typing import Any
 from sim.ros.bundled_programs import command_in_a_run
 from sim.ros.engine.program import Process
 from sim.ros.fibers.exceptions import RunOver
-from sim.ros.launching.respawned import kill
+from sim.ros.launching.respawned import interrupt, kill
 from sim.ros.packages import bundled_command, executable, forget_modules
 
 PYTHON = re.compile(r"python(3(\.\d+)?)?")
@@ -101,8 +101,7 @@ class SimProcess:
     def send_signal(self, number: int) -> None:
         """As launch's `Process`: SIGINT is Ctrl-C, and every other signal kills it."""
         if number == signal.SIGINT:
-            self._process.shut_down()
-            self._process.main.thrown = KeyboardInterrupt()
+            interrupt(self._process)
             return
         self._killed = number
         kill(self._run, self._process)

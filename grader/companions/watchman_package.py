@@ -1,0 +1,119 @@
+"""A package that works: its program is operated from terminals, and what it offers is found by looking."""
+
+import os
+from pathlib import Path
+
+NAME, NUMBER = "watchman", "7306"
+XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>watchman</name>
+  <version>0.0.0</version>
+  <description>Patrols a room</description>
+  <maintainer email="you@example.org">you</maintainer>
+  <license>Apache-2.0</license>
+
+  <depend>rclpy</depend>
+  <depend>geometry_msgs</depend>
+  <depend>sensor_msgs</depend>
+  <depend>std_msgs</depend>
+  <depend>std_srvs</depend>
+
+  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+SETUP = """\
+from setuptools import find_packages, setup
+
+setup(
+    name='watchman',
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/watchman']),
+        ('share/watchman', ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    entry_points={'console_scripts': ['watch = watchman.watch:main']},
+)
+"""
+WATCH = '''\
+"""Drives ahead, and turns where something is near; it waits until it is called."""
+import math
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+NEAR = 0.6  # m
+
+
+class Watchman(Node):
+    def __init__(self):
+        super().__init__("watchman")
+        self.declare_parameter("pace", 0.1)  # m/s
+        self.patrols = False
+        self.commands = self.create_publisher(Twist, "drive", 10)
+        self.badges = self.create_publisher(String, "~/badge", 10)
+        self.create_subscription(LaserScan, "scan", self.on_scan, qos_profile_sensor_data)
+        self.create_subscription(String, "logbook", self.on_entry, 10)
+        self.create_service(SetBool, "~/patrol", self.on_patrol)
+        self.create_timer(1.0, self.show_badge)
+
+    def on_scan(self, scan):
+        command = Twist()
+        if self.patrols:
+            angles = (scan.angle_min + i * scan.angle_increment for i in range(len(scan.ranges)))
+            ahead = (r for angle, r in zip(angles, scan.ranges) if abs(math.remainder(angle, math.tau)) < 0.6)
+            if min((r for r in ahead if not math.isnan(r)), default=math.inf) < NEAR:
+                command.angular.z = 0.8
+            else:
+                command.linear.x = self.get_parameter("pace").value
+        self.commands.publish(command)
+
+    def on_patrol(self, request, response):
+        self.patrols = request.data
+        response.success, response.message = True, "on patrol" if request.data else "halted"
+        return response
+
+    def on_entry(self, msg):
+        self.get_logger().info(f"logbook: {msg.data}")
+
+    def show_badge(self):
+        self.badges.publish(String(data="badge 7306"))
+
+
+def main():
+    rclpy.init()
+    try:
+        rclpy.spin(Watchman())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+'''
+CFG = "[develop]\nscript_dir=$base/lib/watchman\n[install]\ninstall_scripts=$base/lib/watchman\n"
+FILES = {
+    "watchman/package.xml": XML,
+    "watchman/setup.py": SETUP,
+    "watchman/setup.cfg": CFG,
+    "watchman/resource/watchman": "",
+    "watchman/watchman/__init__.py": "",
+    "watchman/watchman/watch.py": WATCH,
+}
+
+
+def write_watchman(workspace: str | os.PathLike[str]) -> None:
+    """Write the package into a workspace. Existing files are overwritten."""
+    for path, text in FILES.items():
+        file = Path(workspace) / "src" / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")

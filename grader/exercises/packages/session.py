@@ -1,0 +1,110 @@
+"""A session in terminals: a program is operated by commands, and what it then does is judged."""
+
+from functools import partial
+
+from grader.checks import Missed, keeps_clear, publishes, series
+from grader.checks.packages import package_of
+from grader.checks.topics import longest_pause
+from grader.checks.typed import first_failure
+from grader.companions.watchman_package import FILES, NAME, NUMBER
+from grader.exercise import Exercise, Scenario
+from grader.responses import same
+from grader.workspace.installation import typed_in_terminals
+from grader.workspace.package import PackageRun
+from sim import World
+from sim.evidence import Seconds, stamps
+from sim.ros2.system import OWN_NAME
+
+COMMANDS, LOGBOOK = "/cmd_vel", "/logbook"
+SLOW, FAST = 0.1, 0.25  # m/s
+LONG, LATE = 5.0, 0.5  # s: at each speed; a command that comes so late
+CALL = "It waits for a call: `ros2 service list -t` shows the service, `ros2 interface show` its fields."
+BADGE = "It publishes its badge: `ros2 topic list` shows where, and `ros2 topic echo` what."
+AGAIN = "Set the parameter while it runs. A value that is given at a start is for another run."
+
+session = Exercise("session", "A session in terminals", package=NAME, scenarios=[
+    Scenario(lambda seed: World.generate("room", seed=seed), seconds=90, seed=1,
+             prepare=partial(typed_in_terminals, NAME)),
+], may_end=True)
+
+
+@session.check(3, guess="It needs colcon build, source, export and ros2 run, in one terminal.", hints={
+    "It publishes on /drive: `ros2 run` with `--ros-args -r OLD:=NEW` renames a topic.":
+        lambda run: bool(run.graph.publishers("/drive")),
+})
+def starts(run: PackageRun) -> None:
+    """The package is built, and its program started: its commands arrive on /cmd_vel."""
+    changed = [path for path, text in FILES.items() if package_of(run).sources.get(path) != text.encode()]
+    if changed:
+        hint = "It works: operate it as it is. Run the cell again that writes it."
+        raise Missed("the package as it was given", f"another ws/src/{changed[0]}", hint)
+    with first_failure(run):
+        senders = {row.sender for row in publishes(run, COMMANDS, "geometry_msgs/msg/Twist")}
+        if f"/{OWN_NAME}" in senders:
+            hint = "Start the program: it drives by itself."
+            raise Missed("commands of the program", "commands of `ros2 topic pub`", hint)
+
+
+@session.check(3, after=starts)
+def patrols(run: PackageRun) -> list[tuple[Seconds, float]]:
+    """It is sent on patrol: the robot drives at 0.1 m/s for 5 s or longer, and touches nothing."""
+    turns = dict(series(run, COMMANDS, "angular.z"))
+    driven = [(stamp, speed) for stamp, speed in series(run, COMMANDS, "linear.x") if speed or turns[stamp]]
+    with first_failure(run):
+        if not driven:
+            raise Missed("a robot that drives", "commands of 0 only", CALL)
+        first = next((speed for _, speed in driven if speed), SLOW)
+        if not same(first, SLOW):
+            raise Missed(f"{SLOW:g} m/s at first", f"{first:g} m/s", "Change its pace while it drives.")
+        _lasts(driven[0][0], next((stamp for stamp, speed in driven if speed > first), driven[-1][0]), SLOW)
+    keeps_clear(run)
+    return driven
+
+
+@session.check(3, after=patrols)
+def changes_pace(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
+    """While it drives, and without another start, its pace becomes 0.25 m/s, for 5 s or longer."""
+    with first_failure(run):
+        later = [(stamp, speed) for stamp, speed in driven if speed and not same(speed, SLOW)]
+        if not later:
+            hint = "The pace is a parameter of its node: `ros2 param list`, then `ros2 param set`."
+            raise Missed(f"{FAST:g} m/s after some time", f"{SLOW:g} m/s to the end", hint)
+        since = later[0][0]
+        for stamp, speed in driven:
+            if stamp >= since and speed and not same(speed, FAST):
+                expected = f"{FAST:g} m/s from {since:.3g} s on"
+                hint = "Set it once, to 0.25. Are two programs driving?"
+                raise Missed(expected, f"{speed:g} m/s at {stamp:.3g} s", hint)
+        pause, at = longest_pause(stamps(run.during(driven[0][0], driven[-1][0]).messages(COMMANDS)))
+        if pause > LATE:
+            raise Missed("commands without a pause", f"none for {pause:.3g} s, from {at:.3g} s on", AGAIN)
+        _lasts(since, driven[-1][0], FAST)
+
+
+@session.check(2, after=starts, hints={BADGE: lambda run: True})
+def signs(run: PackageRun) -> None:
+    """The number of its badge is in a String on /logbook."""
+    with first_failure(run):
+        texts = [row.message.data for row in publishes(run, LOGBOOK, "std_msgs/msg/String")]
+        if not any(NUMBER in text for text in texts):
+            raise Missed("the number of its badge", f"“{texts[0][:60]}”")
+
+
+@session.check(1, after=patrols)
+def ends(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
+    """At the end the patrol is called off, and then no program runs any more."""
+    last = driven[-1][0]
+    with first_failure(run):
+        if last == run.messages(COMMANDS)[-1].stamp:
+            hint = "Call its service once more before Ctrl-C, to halt it."
+            raise Missed("commands of 0 at the end", f"a robot that drives until {last:.3g} s", hint)
+        if run.all_exited_at is None:
+            hint = "Ctrl-C ends a program: a line Ctrl-C, below a line that names its terminal."
+            raise Missed("no program at the end", f"one that still runs after {run.seconds:g} s", hint)
+
+
+def _lasts(begin: Seconds, end: Seconds, speed: float) -> None:
+    """Raise Missed if the robot doesn't drive at this speed long enough."""
+    if end - begin < LONG - LATE:
+        hint = "`sleep 6` waits for 6 s before the next line is typed."
+        raise Missed(f"{LONG:g} s or longer at {speed:g} m/s", f"{end - begin:.3g} s", hint)

@@ -1,0 +1,227 @@
+"""What was typed in terminals, typed again in a run."""
+
+import itertools
+
+import pytest
+
+from sim import run
+from sim.ros2.typed_session import terminals
+from sim.ros2.typed_lines import InvalidLine, Line, lines_of, words_of
+
+DRIVER = """\
+#!/usr/bin/env python3
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class Driver(Node):
+    def __init__(self):
+        super().__init__("driver")
+        self.declare_parameter("speed", 0.1)
+        self.commands = self.create_publisher(Twist, "drive", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.linear.x = self.get_parameter("speed").value
+        self.commands.publish(command)
+
+
+rclpy.init()
+try:
+    rclpy.spin(Driver())
+except (KeyboardInterrupt, ExternalShutdownException):
+    print("The driver ends")
+"""
+LAUNCH = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="demo", executable="driver", remappings=[("drive", "cmd_vel")])])
+"""
+SET_UP = "cd ws\ncolcon build\nsource install/setup.bash\nexport ROS_DOMAIN_ID=42\n"
+DRIVE = "ros2 run demo driver --ros-args -r drive:=cmd_vel"
+
+
+@pytest.fixture
+def prefix(tmp_path, monkeypatch):
+    for path, text in {
+        "share/ament_index/resource_index/packages/demo": "",
+        "share/demo/demo.launch.py": LAUNCH,
+        "lib/demo/driver": DRIVER,
+    }.items():
+        file = tmp_path / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+        file.chmod(0o755)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def typed(prefix):
+    return lambda text, seconds=25: run(
+        terminals(text, prefix), world="yard", seconds=seconds, quiet=True, expect_error=True
+    )
+
+
+def shown(recording):
+    return "".join(text for _, text in recording.prints).splitlines()
+
+
+def commands(recording):
+    """Speeds on /cmd_vel, each with the stamps of its first and last command."""
+    rows = [(row.message.linear.x, row.stamp) for row in recording.messages("/cmd_vel")]
+    found = itertools.groupby(rows, key=lambda row: row[0])
+    groups = [(speed, [stamp for _, stamp in group]) for speed, group in found]
+    return [(speed, stamps[0], stamps[-1]) for speed, stamps in groups]
+
+
+def test_a_program_is_built_started_changed_and_ended(typed):
+    recording = typed(
+        f"# terminal 1\n{SET_UP}{DRIVE}\n"
+        "# terminal 2\nexport ROS_DOMAIN_ID=42\nsleep 2\nros2 param set /driver speed 0.3\n"
+        "# terminal 1\nCtrl-C after 3 s\n"
+    )
+    assert shown(recording) == [
+        "terminal 1, line 2 $ cd ws",
+        "terminal 1, line 3 $ colcon build",
+        "Summary: 1 package finished",
+        "terminal 1, line 4 $ source install/setup.bash",
+        "terminal 1, line 5 $ export ROS_DOMAIN_ID=42",
+        f"terminal 1, line 6 $ {DRIVE}",
+        "terminal 2, line 8 $ export ROS_DOMAIN_ID=42",
+        "terminal 2, line 9 $ sleep 2",
+        "terminal 2, line 10 $ ros2 param set /driver speed 0.3",
+        "Set parameter successful",
+        "terminal 1, line 12 $ Ctrl-C after 3 s",
+        "The driver ends",
+    ]
+    slow, fast = commands(recording)
+    assert slow == (0.1, pytest.approx(5.1), pytest.approx(10.0, abs=0.11))
+    assert fast == (0.3, pytest.approx(10.1, abs=0.11), pytest.approx(14.0, abs=0.11))
+    assert recording.all_exited_at == pytest.approx(14.0, abs=0.3)
+    assert (recording.errors, recording.end_errors) == ([], [])
+
+
+def test_a_launch_file_is_started_and_ended(typed):
+    recording = typed(f"{SET_UP}ros2 launch demo demo.launch.py\nctrl+c after 2 s\n")
+    assert 7.5 < commands(recording)[0][2] < 10.0  # launch ends its programs one after the other
+    assert recording.all_exited_at is not None
+    assert recording.errors == []
+
+
+def test_programs_run_until_the_run_ends(typed):
+    recording = typed(f"{SET_UP}{DRIVE}\n", 8)
+    assert recording.all_exited_at is None
+    assert commands(recording)[0][2] == pytest.approx(8.0, abs=0.11)
+
+
+def test_a_variable_may_be_given_to_one_command(typed):
+    lines = shown(
+        typed("ROS_DOMAIN_ID=42 ros2 node list\nros2 node list\nROS_DOMAIN_ID=42\nros2 node list\n")
+    )
+    assert lines.count("/robot") == 2
+
+
+def test_what_other_set_ups_are_typed_and_what_only_looks_is_accepted(typed):
+    text = "source /opt/ros/jazzy/setup.bash\nsource ../.venv/bin/activate\nls\npwd\nclear\n"
+    lines = shown(typed(f"{text}cd\ncd /home/ann/ws\ncolcon build\n. install/local_setup.sh\n"))
+    assert [line for line in lines if "failed" in line] == []
+
+
+def test_the_robot_is_there_already(typed):
+    lines = shown(typed("python -m sim --world room\nls\nCtrl-C\nls\n"))
+    assert lines == [
+        "terminal 1, line 1 $ python -m sim --world room",
+        "terminal 1, line 2 $ ls",
+        "python -m sim is running in terminal 1: open another one",
+        "[line 2 failed]",
+        "terminal 1, line 3 $ Ctrl-C",
+        "terminal 1, line 4 $ ls",
+    ]
+
+
+def test_a_terminal_is_busy_until_its_program_has_ended(typed):
+    recording = typed(f"{SET_UP}{DRIVE}\nls\nls\n")
+    assert shown(recording)[-3:] == [
+        "terminal 1, line 6 $ ls",
+        "line 5 is still running in terminal 1",
+        "[line 6 failed]",
+    ]
+
+
+FAILURES = {
+    "rso2 run demo driver": "rso2: command not found. Did you mean ros2?",
+    "drive": "drive: command not found",
+    "ros2 run demo driver | head": "`|` needs a shell, and there is none here: leave it out",
+    "ros2 run demo driver &": (
+        "`&` needs a shell, and there is none here: open another terminal for the next command"
+    ),
+    "cd ws && colcon build": (
+        "`&&` needs a shell, and there is none here: type each command on a line of its own"
+    ),
+    "cd $HOME": "`$` needs a shell, and there is none here: type the value itself",
+    "ros2 topic pub /x (data)": (
+        "`(` needs a shell, and there is none here: put quotes round a value that has it"
+    ),
+    "ros2 topic list '": "bash: No closing quotation: a quote that is opened has to be closed",
+    "colcon test": "colcon test is not executed here: colcon build is",
+    "colcon build": "Summary: 0 packages finished: type colcon build in the workspace, the folder ws",
+    "cd ws\ncolcon build --packages-select domo --symlink-install": (
+        "Summary: 0 packages finished: there is no package 'domo'"
+    ),
+    "source ws/install/setup.bash": (
+        "bash: ws/install/setup.bash: No such file or directory: colcon build makes it"
+    ),
+    "cd ws\ncolcon build\nsource ws/install/setup.bash": (
+        "bash: ws/install/setup.bash: No such file or directory: cd to the right folder first"
+    ),
+    "source": "bash: : No such file or directory: cd to the right folder first",
+    "ros2 run demo driver": "Package 'demo' not found: it is not built",
+    "cd ws\ncolcon build\nros2 run demo driver": (
+        "Package 'demo' not found: source ws/install/setup.bash was not typed in this terminal"
+    ),
+    "ros2 topic list": "There are no nodes on ROS domain 0, but on 42: export ROS_DOMAIN_ID=42",
+    "export ROS_DOMAIN_ID=7\nros2 topic list": (
+        "There are no nodes on ROS domain 7, but on 42: export ROS_DOMAIN_ID=42"
+    ),
+    "sleep long": "sleep: invalid time interval 'long'",
+    f"{SET_UP}ros2 run demo diver": (
+        "No executable found: demo has driver, and no diver. Did you mean driver? What is new in"
+    ),
+    f"{SET_UP}ros2 run dem driver": "Package 'dem' not found: did you mean demo?",
+    f"{SET_UP}ros2 run demo": "ros2 run: error: the following arguments are required: executable_name, argv",
+    f"{SET_UP}ros2 launch demo dem.launch.py": "file 'dem.launch.py' was not found in the share directory",
+    f"{SET_UP}ros2 node info /drivr": "Unable to find node '/drivr'",
+}
+
+
+@pytest.mark.parametrize("text", FAILURES)
+def test_a_line_that_fails_is_reported(typed, text):
+    lines = shown(typed(text))
+    number = text.count("\n") + 1
+    assert lines[-1] == f"[line {number} failed]"
+    assert lines[-2].startswith(FAILURES[text])
+
+
+def test_the_lines_after_one_that_fails_are_typed(typed):
+    assert shown(typed("drive\nls\n"))[-1] == "terminal 1, line 2 $ ls"
+
+
+def test_lines_have_terminals_and_numbers():
+    text = "ls\n\n# Terminal two:\n$ pwd # here\n# a remark\nros2 x \\\n  'a\n  b'\n## terminal 1\nls"
+    assert list(lines_of(text)) == [
+        *(Line(1, "1", "ls"), Line(4, "two", "pwd # here"), Line(6, "two", "ros2 x    'a\n  b'")),
+        Line(10, "1", "ls"),
+    ]
+
+
+def test_a_value_in_quotes_is_one_word():
+    assert words_of("ros2 x \"{a: 'b|c'}\" '$d' # e") == ["ros2", "x", "{a: 'b|c'}", "$d"]
+    with pytest.raises(InvalidLine, match=r"^`>` needs a shell"):
+        words_of("ros2 x > y")
