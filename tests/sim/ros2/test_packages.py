@@ -8,9 +8,9 @@ import signal
 import pytest
 from launch.logging import launch_config
 
-from sim import run
+from sim import Process, run
 from sim.ros2 import parser
-from sim.ros2.cli_program import terminal
+from sim.ros2.cli_program import ros2
 from tests.patience import PATIENCE
 from tests.sim.ros.installed import NAME, install, sourced
 from tests.sim.ros2.test_terminal import ROS2, start
@@ -143,13 +143,13 @@ def test_a_launch_file_is_printed_as_a_tree(execute, package):
     ]
 
 
-def test_commands_that_start_processes_are_refused_in_a_run(package, monkeypatch):
+def test_commands_that_start_processes_are_refused_in_a_launch_file_of_a_run(package, monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", sourced(package)["AMENT_PREFIX_PATH"])
     for line, instead in (
         (f"launch {NAME} bringup.launch.py", f'run("{NAME} bringup.launch.py")'),
         (f"run {NAME} driver", f'run(executable("{NAME}", "driver"))'),
     ):
-        recording = run(terminal(f"ros2 {line}"), seconds=1, quiet=True)
+        recording = run(Process(ros2, arguments=line.split()), seconds=1, quiet=True)
         word = line.split()[0]
         assert "".join(text for _, text in recording.prints) == (
             f"`ros2 {word}` starts processes of their own, in a terminal. Here, write {instead}.\n"

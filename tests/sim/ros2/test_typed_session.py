@@ -5,8 +5,9 @@ import itertools
 import pytest
 
 from sim import run
-from sim.ros2.typed_session import terminals
+from sim.ros2.cli_program import terminal
 from sim.ros2.typed_lines import InvalidLine, Line, lines_of, words_of
+from sim.ros2.typed_session import terminals
 
 DRIVER = """\
 #!/usr/bin/env python3
@@ -113,6 +114,12 @@ def test_a_launch_file_is_started_and_ended(typed):
     assert 7.5 < commands(recording)[0][2] < 10.0  # launch ends its programs one after the other
     assert recording.all_exited_at is not None
     assert recording.errors == []
+
+
+def test_the_program_that_one_command_starts_takes_its_place(prefix):
+    for command in (DRIVE, "ros2 launch demo demo.launch.py"):
+        recording = run(terminal(command), world="yard", seconds=3, quiet=True)
+        assert {row.sender for row in recording.messages("/cmd_vel")} == {"/driver"}
 
 
 def test_programs_run_until_the_run_ends(typed):

@@ -95,7 +95,8 @@ Ctrl-C
 # Terminal robot:
 Ctrl-C
 """)
-OnceMore = typed(f"""\
+OnceMore = typed(  # a design of its own: it is started once more, to stop the robot by a command
+    f"""\
 cd ws
 colcon build
 source install/setup.bash
@@ -115,7 +116,8 @@ Ctrl-C
 {CALL} "data: false"
 # terminal 1
 Ctrl-C after 1.5
-""")  # a design of its own: the program is started once more, to stop the robot by a command
+"""
+)
 
 NotBuilt = but("colcon build --packages-select watchman\n", "")
 BuiltElsewhere = but("cd ws\n", "cd ws/src\n")
