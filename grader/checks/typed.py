@@ -28,9 +28,9 @@ HINTS = {
     "Node not found|Unable to find node": "`ros2 node list` shows which nodes are running, and their names.",
     "arameter type": "The type is that of its first value: 1.0 for a number with a point, and not 1.",
     "arameter": "`ros2 param list` shows the parameters of each node.",
+    "type is invalid": "A type has three parts, such as std_msgs/msg/String: `-t` of `list` shows it.",
     "service": "`ros2 service list -t` shows the services with their types.",
     "populate field|needs a space|YAML": "`ros2 interface show` shows the fields of a type.",
-    "type is invalid": "A type has three parts, package/msg/Name: `ros2 topic list -t` shows it.",
     "time interval": "`sleep 5` waits 5 s.",
 }
 TYPED = re.compile(r"terminal \w+, line (\d+) \$ (.*)")

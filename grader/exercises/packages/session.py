@@ -28,8 +28,10 @@ session = Exercise("session", "A session in terminals", package=NAME, scenarios=
 ], may_end=True)
 
 
-@session.check(3, guess="It needs colcon build, source, export and ros2 run, in one terminal.", hints={
+@session.check(3, hints={
     "There is no command in session.txt: keep there what you typed.": lambda run: not run.prints,
+    "Nothing was started: `ros2 run` does it, with the package and the program.":
+        lambda run: not any("ros2 run" in text for _, text in run.prints),
     "It publishes on /drive: `ros2 run` with `--ros-args -r OLD:=NEW` renames a topic.":
         lambda run: bool(run.graph.publishers("/drive")),
 })

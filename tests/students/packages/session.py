@@ -184,6 +184,7 @@ DrivesByItself = Workspace(
         "patrols = True",
     ),
 )
+OnlyBuilds = typed("cd ws\ncolcon build\nsource install/setup.bash\n")
 NothingTyped = typed("# terminal 1\n")
 NoSession = Workspace(__name__, dict(FILES))
 NotStarted = typed("# YOUR CODE HERE\nraise NotImplementedError()\n")
