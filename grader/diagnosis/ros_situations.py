@@ -60,3 +60,11 @@ def empty_list_advice(name: str, given: str) -> str:
         f"`self.declare_parameter('{name}', Parameter.Type.{given})`, with `from rclpy.parameter import "
         "Parameter`; the parameter then has no value until it is set."
     )
+
+
+def invalid_description(error: CallbackError, recording: Recording) -> str:
+    """A URDF that robot_state_publisher can't read; its log says why."""
+    if "Unable to initialize urdf::model" not in error.text:
+        return ""
+    lines = [line.text for line in recording.logs if line.level == "ERROR" and line.stamp <= error.stamp]
+    return f"The robot's description can't be read: {lines[-1].rstrip('.')}." if lines else ""
