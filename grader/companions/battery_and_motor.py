@@ -11,6 +11,8 @@ LEVELS = {
     BATTERY: ((0.32, 0.95), (0.12, 0.28), (0.02, 0.08), None),
     MOTOR: ((20.0, 58.0), (62.0, 78.0), (82.0, 99.0), None),
 }
+EDGES = {BATTERY: (0.3, 0.29, 0.0, None), MOTOR: (59.9, 60.0, 80.0, None)}
+"""A value of each level at its edge."""
 
 
 class BatteryAndMotor(TimedNode):
@@ -20,16 +22,18 @@ class BatteryAndMotor(TimedNode):
 
     def __init__(self) -> None:
         super().__init__("patient")
-        self.plan = {topic: self._drawn(*levels) for topic, levels in LEVELS.items()}
+        self.plan = {topic: self._drawn(*levels, at_edges=EDGES[topic]) for topic, levels in LEVELS.items()}
         self.batteries = self.create_publisher(BatteryState, BATTERY, 10)
         self.motors = self.create_publisher(Temperature, MOTOR, 10)
 
-    def _drawn(self, *levels: tuple[float, float] | None) -> list[float | None]:
+    def _drawn(self, *levels: tuple[float, float] | None,
+               at_edges: tuple[float | None, ...]) -> list[float | None]:
+        """Return each level once, at its edge, and one of them again, somewhere in its range."""
         order = random.sample(levels, 4)
         while order[0] is None:
             random.shuffle(order)
-        order.append(random.choice(levels[:3]))
-        return [None if level is None else round(random.uniform(*level), 3) for level in order]
+        again = random.choice(levels[:3])
+        return [*(at_edges[levels.index(level)] for level in order), round(random.uniform(*again), 3)]
 
     def tick(self, now: float) -> None:
         """Publish the state of both, unless silent."""

@@ -117,7 +117,7 @@ class Drivers(TimedNode):
 
 
 class RoughDriver(TimedNode):
-    """Drives roughly (Twist on /cmd_vel_raw, at 20 Hz): fast, slow, backwards, not at all, NaN."""
+    """Drives roughly (Twist on /cmd_vel_raw, at 20 Hz): fast, slow, backwards, not at all, NaN, infinite."""
 
     period = 0.05
 
@@ -134,9 +134,10 @@ class RoughDriver(TimedNode):
         ]
         random.shuffle(commands)
         commands.insert(random.randint(1, 2), (0.0, 0.0))
-        commands.insert(random.randint(4, 5), (math.nan, math.inf))
-        lengths = [20 if command[0] in (0.0, math.inf) or math.isnan(command[0]) else 30
-                   for command in commands]
+        place = random.randint(4, 5)
+        commands[place:place] = [(math.nan, math.inf), (-math.inf, math.nan)]
+        lengths = [30 if math.isfinite(command[0]) else 10 for command in commands]
+        lengths[commands.index((0.0, 0.0))] = 20
         self.ticks, self.plan = 0, list(zip(itertools.accumulate(lengths), commands, strict=True))
 
     def tick(self, now: float) -> None:

@@ -128,12 +128,17 @@ def _compare(reports: list[PartReport]) -> None:
 def _level_hint(one: PartReport) -> str:
     if one.true == STALE:
         return "The last number is no news any more: remember when it came, and ask how long ago that is."
+    if one.level == STALE and one.number == 0.0:
+        return ("0 is a number, too: ask whether there is one, `name in self.numbers`, and not whether it is "
+                "true.")
     if one.level == STALE:
         return "News did come: keep the time of the last one for each of the two, by the clock, in seconds."
+    if one.number != round(one.number) and LEVELS[one.name](round(one.number)) == one.level:
+        return "Compare the number as it came. To round is for the text, and comes after that."
     if one.name == "battery":
         return ("percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one "
                 "first.")
-    return "From 60 degrees on it is WARN, from 80 on ERROR: ask for the worse one first."
+    return "From 60 degrees on it is WARN, from 80 on ERROR, both with >=. Ask for the worse one first."
 
 
 def _number(text: str | None) -> float:

@@ -188,6 +188,29 @@ class WithEachMessage(Health):
         self.report()
 
 
+class AboveTheLimits(Health):
+    """60 degrees are a warning already, and 80 an error."""
+
+    def level(self, name):
+        if name == "motor" and not self.is_stale(name):
+            return ERROR if self.numbers[name] > 80 else WARN if self.numbers[name] > 60 else OK
+        return super().level(name)
+
+
+class ZeroIsNoNews(Health):
+    """An empty battery has a number, too."""
+
+    def is_stale(self, name):
+        return not self.numbers.get(name) or super().is_stale(name)
+
+
+class RoundsFirst(Health):
+    """59.9 degrees are not 60 yet."""
+
+    def keep(self, name, number):
+        super().keep(name, round(number))
+
+
 class StampOfTheBeginning(Health):
     def stamp(self, msg):
         self.first = getattr(self, "first", None) or self.get_clock().now().to_msg()

@@ -129,6 +129,20 @@ class LetsNonsenseThrough(Limiter):
         return requested
 
 
+class AsksForNanAndInf(Limiter):
+    """There are two infinities."""
+
+    def finite(self, requested):
+        return 0.0 if math.isnan(requested) or requested == math.inf else requested
+
+
+class AsksForNan(Limiter):
+    """Infinite is more than the limit, and so becomes the limit."""
+
+    def finite(self, requested):
+        return 0.0 if math.isnan(requested) else requested
+
+
 class KeepsOnWithNonsense(Limiter):
     """A bad request is left out, and what was sent last is sent again."""
 
