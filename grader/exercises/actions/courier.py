@@ -37,7 +37,8 @@ def gives_up(run: Recording, goal: Goal) -> None:
                 "cancel_goal_async().")
         raise Missed(expected, "none", hint)
     if abs(cancels[0] - due) > 0.6:
-        hint = "The 8 s begin in on_response: self.create_timer(8.0, self.give_up), without more brackets."
+        hint = ("The 8 s begin in on_response: self.create_timer(8.0, self.give_up), with no parentheses "
+                "after give_up.")
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
 
 
@@ -47,19 +48,20 @@ def leaves_it_alone(run: Recording, goal: Goal) -> None:
     cancels = _cancel_requests(goal)
     if goal.status == "succeeded" and cancels:
         expected = f"no cancel: the goal succeeded at {goal.ended:.3g} s"
-        hint = "The timer goes on after the goal has ended: in on_result call self.timer.cancel()."
+        hint = "The timer is still running after the goal has ended: call self.timer.cancel() in on_result."
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
     if goal.status != "succeeded":
-        hint = "It would have arrived in time: the 8 s begin when the goal is accepted."
-        raise Missed("a goal that succeeds", f"it was {goal.status or 'never taken'}", hint)
+        hint = "The robot would have arrived in time: the 8 s begin when the goal is accepted."
+        raise Missed("a goal that succeeds", f"it was {goal.status or 'never received'}", hint)
     if run.all_exited_at is not None and run.all_exited_at < goal.ended:
-        saw, hint = f"your program had ended at {run.all_exited_at:.3g} s", "Spin until the result is there."
-        raise Missed(f"a node that is there when the robot arrives, at {goal.ended:.3g} s", saw, hint)
+        saw = f"your program had already ended at {run.all_exited_at:.3g} s"
+        hint = "Spin until the result has arrived."
+        raise Missed(f"a node that is still running when the robot arrives, at {goal.ended:.3g} s", saw, hint)
 
 
 @courier.check(4, after=sends_a_goal_to_drive)
 def logs_how_it_ended(run: Recording, goal: Goal) -> None:
-    """The end is logged: `arrived` as info, or a warning with the server's error_msg."""
+    """The outcome is logged: `arrived` as info, or a warning with the server's error_msg."""
     if goal.ended is None:
         raise Missed("a goal that ends", f"still {goal.status} at the end", "Cancel it after 8 s.")
     arrived = goal.status == "succeeded"
@@ -70,11 +72,11 @@ def logs_how_it_ended(run: Recording, goal: Goal) -> None:
     )
     if not any(text.lower() in line.lower() for line in lines(afterwards, level)):
         hint = ("In on_result: future.result() has status and result. Compare status with "
-                "GoalStatus.STATUS_SUCCEEDED; the words are in result.error_msg.")
+                "GoalStatus.STATUS_SUCCEEDED; the text is in result.error_msg.")
         raise Missed(f"{kind} with “{text}” after {since:.3g} s", quoted(lines(afterwards)), hint)
     if not arrived and any("arrived" in text.lower() for text in lines(afterwards)):
-        hint = "A result alone doesn't mean success: look at future.result().status."
-        raise Missed("no “arrived”, for the robot was stopped on the way", "“arrived”", hint)
+        hint = "A result doesn't mean success: check future.result().status."
+        raise Missed("no “arrived”, because the robot was stopped on the way", "“arrived”", hint)
 
 
 def _cancel_requests(goal: Goal) -> list[Seconds]:

@@ -23,7 +23,7 @@ def sends_a_goal_of_seven(run: Recording) -> Goal:
     if not goal.server:
         hint = "A goal without a server is lost: send it only when self.client.server_is_ready() is True."
         saw = f"sent at {goal.requested:.3g} s, before there was a server"
-        raise Missed("a goal that the server takes", saw, hint)
+        raise Missed("a goal that the server receives", saw, hint)
     if goal.request.order != 7:
         raise Missed("order=7 in the goal", f"order={goal.request.order}", "goal = Fibonacci.Goal(order=7).")
     return goal
@@ -36,7 +36,7 @@ def logs_the_progress(run: Recording, goal: Goal) -> None:
         newest, soon = row.message.sequence[-1], Window.after(row.stamp, SOON)
         texts = lines(run.during(soon.begin, soon.end), "INFO")
         if not any(newest in numbers_in(text) for text in texts):
-            hint = ("send_goal_async(goal, feedback_callback=self.on_feedback); there the numbers are in "
+            hint = ("send_goal_async(goal, feedback_callback=self.on_feedback); in it the numbers are in "
                     "msg.feedback.sequence, and [-1] is the newest.")
             raise Missed(f"an info line with {newest} at {row.stamp:.3g} s", quoted(texts), hint)
 
@@ -49,11 +49,11 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
     texts = lines(run.during(goal.ended), "INFO")
     wanted = list(goal.result.sequence)
     if not any("result" in text.lower() and _holds(text, wanted) for text in texts):
-        hint = ("In on_result the numbers are in future.result().result.sequence, and list(...) of them "
-                "prints well.")
+        hint = ("In on_result the numbers are in future.result().result.sequence; list(...) makes them "
+                "readable.")
         if goal.received is None:
-            hint = ("The result wasn't requested. In ask: future.add_done_callback(self.on_response); "
-                    "there: goal_handle.get_result_async().add_done_callback(self.on_result).")
+            hint = ("The result wasn't requested. In ask: future.add_done_callback(self.on_response). "
+                    "In on_response: goal_handle.get_result_async().add_done_callback(self.on_result).")
         raise Missed(f"an info line with “result” and {wanted} after {goal.ended:.3g} s", quoted(texts), hint)
 
 
@@ -67,7 +67,7 @@ def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
         raise Missed(f"a warning with “rejected” after {goal.requested:.3g} s", quoted(lines(since)), hint)
     if goal.status != "rejected" and rejected:
         hint = "Warn only if goal_handle.accepted is False: if not goal_handle.accepted: ..."
-        raise Missed("no such warning, for the goal was accepted", f"“{rejected[0]}”", hint)
+        raise Missed("no such warning, because the goal was accepted", f"“{rejected[0]}”", hint)
 
 
 def _holds(text: str, numbers: list[int]) -> bool:

@@ -22,12 +22,12 @@ def succeeds(run: Recording, goals: list[Goal]) -> None:
         is_succeeded(goal)
     empty = [goal for goal in goals if goal.result is None or not len(goal.result.sequence)]
     if empty:
-        guess = "Success without a result is none: return Fibonacci.Result(sequence=sequence)."
+        guess = "A success needs a result: return Fibonacci.Result(sequence=sequence)."
         raise Missed(f"{goal_text(empty[0])} succeeded with a result", "an empty one", guess=guess)
 
 
 @fibonacci.check(5, after=offers)
 def gives_the_result(run: Recording, goals: list[Goal]) -> None:
-    """The result holds the Fibonacci numbers F(0) to F(order)."""
+    """The result contains the Fibonacci numbers F(0) to F(order)."""
     for goal in goals:
         has_the_result(goal)

@@ -13,7 +13,7 @@ from sim.evidence import Goal, Recording
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 NEAR = 0.15  # meters
 
-square = Exercise("square_by_actions", "A square out of actions", world="yard", seconds=50,
+square = Exercise("square_by_actions", "A square made of actions", world="yard", seconds=50,
                   companions=[DriveServer, SpinServer], may_end=True)
 
 
@@ -31,7 +31,8 @@ def waits_for_the_end(run: Recording) -> None:
     """A goal is sent only when the previous one has ended."""
     for before, after in itertools.pairwise(_goals(run)):
         if before.ended is None or before.ended > after.requested + EDGE:
-            hint = "Accepted isn't done: finish awaits handle.get_result_async(), too, and go awaits finish."
+            hint = ("Accepted isn't finished: await handle.get_result_async() in finish, too, and await "
+                    "finish in go.")
             how = "never ended" if before.ended is None else f"ended at {before.ended:.3g} s"
             expected = f"{after.action} sent after the end of {before.action}, not at {after.requested:.3g} s"
             raise Missed(expected, f"that one {how}", hint)
@@ -57,8 +58,9 @@ def comes_back(run: Recording) -> None:
     try:
         passes(run, CORNERS, tolerance=NEAR)
     except Missed as missed:
-        raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
-    with hinting(_no_quarter(run) or "Four sides and four turns, and then no more goals."):
+        raise Missed("three corners, then the start", missed.saw,
+                     "Get the robot around the corners first.") from None
+    with hinting(_no_quarter(run) or "Send four sides and four turns, then no more goals."):
         arrives(run, (0.0, 0.0), tolerance=NEAR)
 
 

@@ -18,7 +18,8 @@ from sim.evidence import Goal, Recording, stamps
 
 LIMITS = (1, 20)
 
-steps = Exercise("steps", "A server that tells and refuses", seconds=24, companions=[Examiner], seeds=(1, 2))
+steps = Exercise("steps", "A server that reports and refuses", seconds=24, companions=[Examiner],
+                 seeds=(1, 2))
 
 
 def _is_good(goal: Goal) -> bool:
@@ -35,7 +36,8 @@ def accepts_good_orders(run: Recording) -> None:
     fibonacci_offered(run)
     for goal in picked(run, FIBONACCI, _is_good):
         if goal.at("accepted") is None:
-            guess = "judge gave REJECT: which way round is the `if`, and does `return` stand before ACCEPT?"
+            guess = ("judge returned REJECT: is the `if` the right way round, and is there a `return` before "
+                     "ACCEPT?")
             if goal.request.order in LIMITS:
                 guess = "1 and 20 are good orders: is it < or <=?"
             raise Missed(f"{goal_text(goal)} accepted", state(goal), guess=guess)
@@ -61,7 +63,7 @@ def publishes_feedback(run: Recording) -> list[Goal]:
         sent = [list(row.message.sequence) for row in goal.feedback]
         for wanted in map(sequence, range(2, goal.request.order + 1)):
             if wanted not in sent:
-                saw = f"{len(sent)} times feedback; the last was {sent[-1]}" if sent else "no feedback"
+                saw = f"{len(sent)} feedback messages; the last was {sent[-1]}" if sent else "no feedback"
                 raise Missed(f"{wanted} as feedback on {goal_text(goal)}", saw)
     return goals
 
@@ -78,7 +80,7 @@ def takes_its_time(run: Recording, goals: list[Goal]) -> None:
 
 @steps.check(1, after=(accepts_good_orders, publishes_feedback))
 def still_right(run: Recording) -> None:
-    """The result is right as before."""
+    """The result is still right."""
     for goal in picked(run, FIBONACCI, lambda goal: _is_good(goal) and goal.request.order < LIMITS[1]):
         is_succeeded(goal)
         has_the_result(goal)

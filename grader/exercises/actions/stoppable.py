@@ -32,12 +32,12 @@ def accepts_the_cancel(run: Recording, goals: list[Goal]) -> tuple[Goal, Seconds
     goal = goals[0]
     requested, accepted = goal.at(CANCEL_REQUESTED), goal.at("canceling")
     if requested is None or (goal.ended is not None and goal.ended < requested):
-        guess = "Let execute wait 0.5 s for each number." if goal.over else ""
-        saw = f"{state(goal) if goal.server else 'no decision on it'}, before anybody could cancel it"
+        guess = "Make execute wait 0.5 s for each number." if goal.over else ""
+        saw = f"{state(goal) if goal.server else 'no decision on it'}, before it could be canceled"
         raise Missed(f"{goal_text(goal)} executed, with 0.5 s for each number", saw, guess=guess)
     if accepted is None or accepted > requested + 0.1:
-        saw = "it never agreed" if accepted is None else f"accepted at {accepted:.3g} s"
-        raise Missed(f"the cancel request of {requested:.3g} s accepted at once", f"{saw}; {state(goal)}")
+        saw = "it was never accepted" if accepted is None else f"accepted at {accepted:.3g} s"
+        raise Missed(f"the cancel request at {requested:.3g} s accepted at once", f"{saw}; {state(goal)}")
     return goal, requested
 
 
@@ -46,7 +46,7 @@ def stops_soon(run: Recording, canceled: tuple[Goal, Seconds]) -> Goal:
     """The goal ends within a second, as canceled."""
     goal, requested = canceled
     if goal.status != "canceled" or goal.ended is None or goal.ended - requested > QUICKLY:
-        often = "Look at goal_handle.is_cancel_requested before each number, not only now and then."
+        often = "Check goal_handle.is_cancel_requested before every number, not just now and then."
         ending = "If goal_handle.is_cancel_requested, call goal_handle.canceled() and return the result."
         guess = often if goal.status == "canceled" else ending
         expected = f"{goal_text(goal)} canceled within {QUICKLY:g} s of {requested:.3g} s"
@@ -56,11 +56,11 @@ def stops_soon(run: Recording, canceled: tuple[Goal, Seconds]) -> Goal:
 
 @stoppable.check(2, after=stops_soon)
 def returns_what_it_has(run: Recording, goal: Goal) -> None:
-    """The result of the canceled goal holds the numbers found so far."""
+    """The result of the canceled goal contains the numbers computed so far."""
     numbers = list(goal.result.sequence) if goal.result is not None else []
     sent = list(goal.feedback[-1].message.sequence) if goal.feedback else []
     if not numbers or numbers != sequence(len(numbers) - 1) or len(numbers) < len(sent):
-        hint = "After canceled(): return Fibonacci.Result(sequence=sequence), with what it has so far."
+        hint = "After canceled(): return Fibonacci.Result(sequence=sequence), with the numbers so far."
         wanted = sent or sequence(int(goal.at(CANCEL_REQUESTED)))
         raise Missed(f"{wanted} as the result of {goal_text(goal)}", f"{numbers}", hint)
 

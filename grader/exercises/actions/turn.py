@@ -31,30 +31,31 @@ def offers_to_turn(run: Recording) -> None:
 
 
 @turn.check(6, after=offers_to_turn, guess={
-    "The angle of the goal before is still there: self.turned = 0.0 at the beginning of execute.":
+    "The angle from the previous goal is still there: set self.turned = 0.0 at the beginning of execute.":
         lambda run, goal, turned: any(abs(angle) > 0.3 for angle in _angles(goal)[:1]),
-    "It stopped far too early: are all angles in radians? The robot's are, and the goal's, too.":
+    "It stopped far too early: are all angles in radians? The robot's and the goal's are.":
         lambda run, goal, turned: any(abs(a) > 5 * abs(turned) > 0.05 for a in _angles(goal)[-1:]),
-    "The robot hasn't turned: send a Twist with angular.z in the loop, each time.":
+    "The robot hasn't turned: publish a Twist with angular.z on every pass through the loop.":
         lambda run, goal, turned: abs(turned) < 0.05 and goal.status == "succeeded",
-    "It turned the wrong way: a negative target_yaw is to the right, with a negative angular.z.":
+    "It turned the wrong way: a negative target_yaw is a turn to the right, and needs a negative angular.z.":
         lambda run, goal, turned: turned * goal.request.target_yaw < 0,
-    "The robot stands, and the goal never ends: send a Twist in the loop, each time.":
+    "The robot stands still, and the goal never ends: publish a Twist on every pass through the loop.":
         lambda run, goal, turned: not goal.over and abs(turned) < 0.05,
-    "It turned on and on, for self.turned stays 0: does on_odometry add to it? And does execute "
-    "await self.pause(...)? While it sleeps, the node is deaf to /odom.":
+    "It never stopped turning, because self.turned stays 0: does on_odometry add to it? And does "
+    "execute await self.pause(...)? While execute sleeps, the node receives no /odom.":
         lambda run, goal, turned: not goal.over and any(abs(a) < 0.01 for a in _angles(goal)[-1:]),
-    "It turned on and on, for self.turned is the last step only. Add up: self.turned += ...":
+    "It never stopped turning, because self.turned is only the last step. Add the steps up: self.turned += "
+    "...":
         lambda run, goal, turned: not goal.over and 0 < max(map(abs, _angles(goal)), default=0) < 0.1,
-    "It turned on and on. From pi the yaw jumps to -pi: add up small steps, each one "
-    "math.remainder(yaw - self.yaw, math.tau), to self.turned.": lambda run, goal, turned: not goal.over,
-    "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly.":
+    "It never stopped turning. At pi the yaw jumps to -pi: add small steps to self.turned, "
+    "each one math.remainder(yaw - self.yaw, math.tau).": lambda run, goal, turned: not goal.over,
+    "It kept turning past its goal: publish a Twist() of zeros when it has arrived, and turn slowly.":
         lambda run, goal, turned: abs(turned) - abs(goal.request.target_yaw) > 0.25,
-    "self.turned adds up the small steps between messages of /odom, from 0 with each goal. After each "
-    "step on_odometry keeps the yaw: self.yaw = yaw.": otherwise,
+    "self.turned is the sum of the small steps between /odom messages, starting from 0 for each goal. "
+    "After each step on_odometry stores the yaw: self.yaw = yaw.": otherwise,
 })
 def turns_by_the_angle(run: Recording) -> None:
-    """Goals to both sides, even of more than half a turn, succeed: the robot has turned by target_yaw."""
+    """Goals to either side, even of more than half a turn, succeed: the robot has turned by target_yaw."""
     goals = picked(run, SPIN, lambda goal: goal.request.target_yaw < 5.0)
     for number, goal in enumerate(goals):
         target = goal.request.target_yaw
@@ -93,7 +94,7 @@ def _feedback_is_true(run: Recording, goal: Goal) -> None:
         if not same(abs(sent), abs(turned), NEAR):
             expected = (f"angular_distance_traveled={turned:.2f} at {row.stamp:.3g} s, in the feedback on "
                         f"{_text(goal)}")
-            guess = ("The field angular_distance_traveled is how far the robot has turned since the goal "
+            guess = ("Set angular_distance_traveled to how far the robot has turned since the goal "
                      "began.")
             raise Missed(expected, f"{sent:.2f}", guess=guess)
 
@@ -114,8 +115,8 @@ def stops_when_canceled(run: Recording) -> Goal:
     turned_by = _turned(run, goal)
     moved = turned_by(requested + 2.0) - turned_by(requested + 0.8)
     if abs(moved) > 0.05:
-        expected = f"a robot that stands still 0.8 s after it was asked to stop, at {requested:.3g} s"
-        hint = "Canceled isn't stopped: send a Twist() of zeros before you call canceled()."
+        expected = f"a robot that stands still 0.8 s after the cancel request at {requested:.3g} s"
+        hint = "Canceled isn't stopped: publish a Twist() of zeros before you call canceled()."
         raise Missed(expected, f"it turned {abs(moved):.2f} rad further", hint, picture="path", unsafe=True)
     return goal
 

@@ -16,7 +16,7 @@ def reports_the_charge(run: Recording) -> list[LogMatch]:
     found = [_charge(line) for line in lines]
     wanted = [max(0, 90 - 10 * index) for index in range(max(len(found), 10))]
     if found != wanted[: len(found)]:
-        hint = "One line for each measurement, at one level: if, elif, else."
+        hint = "Log one line for each measurement, at one level: use if, elif, else."
         credit = 0.5 if len(found) <= FLOOD * run.seconds else 0.0
         raise Missed(listed(wanted), listed(found), hint, credit=credit, measured=lines)
     return come_every(run, lines, 1.0, credit=0.5)
@@ -47,12 +47,12 @@ def _have_level(run: Recording, lines: list[LogMatch], charges: range, level: st
     if not about:
         hint = "Look at your last case: else."
         if run.ended.stamp - lines[-1].stamp < 2 * (lines[-1].stamp - lines[-2].stamp if lines[1:] else 1.0):
-            hint = "The run was over before the charge came down so far: first let a line come every second."
+            hint = "The run ended before the charge dropped that far: log one line every second first."
         raise Missed(f"lines from {charges[-1]} % to {charges[0]} %", "none", hint)
     if wrong:
         edges = {charges[0], charges[-1]}
         at_the_edge = {_charge(line) for line in wrong} <= edges and len(wrong) < len(about)
-        question = "> or >=?" if at_the_edge else "where do they lead?"
+        question = "> or >=?" if at_the_edge else "which branch does it take?"
         hint = f"Follow your comparisons for {_charge(wrong[0])} %, one after the other: {question}"
         expected, saw = f"“{wrong[0].text}” at level {level}", f"it at level {wrong[0].level}"
         raise Missed(expected, saw, hint, credit=1 - len(wrong) / len(about))

@@ -27,9 +27,10 @@ def counts_up(run: Recording, lines: list[LogMatch]) -> None:
     wanted = list(range(1, len(counts) + 1))
     if counts == wanted:
         return
-    hint = "How much is added to the count, and how often?"
+    hint = "How much does your code add to the count, and how often?"
     if len(counts) > 1 and len(set(counts)) == 1:
-        hint = "A variable of a method is gone when it returns: keep the count in self, from __init__ on."
+        hint = ("A local variable is gone when its method returns: create self.count in __init__, and add to "
+                "that.")
     elif counts[0] == 0:
         hint = "The first count is 1: add before you log."
     raise Missed(listed(wanted), listed(counts), hint)

@@ -14,7 +14,7 @@ def called_heart_of_robot1(run: Recording) -> None:
     name, nodes = "/robot1/heart", run.graph.nodes
     if name in nodes:
         return
-    hint = "super().__init__ takes the name first, and then the namespace by its own name: namespace=..."
+    hint = "super().__init__ takes the name first; pass the namespace as a keyword: namespace=..."
     if any(node.endswith("/heart") for node in nodes):
         hint = f"The name is right. {hint}"
     raise Missed(f"a node called {name}", ", ".join(nodes) or "no node", hint)
@@ -43,5 +43,6 @@ def reports_all_beats(run: Recording, beats: list[LogMatch], reports: list[LogMa
         most = sum(stamp <= report.stamp for stamp in stamps)
         fewest = sum(stamp < report.stamp - EDGE for stamp in stamps)
         if not fewest <= int(report.groups[0]) <= most:
-            hint = "One callback counts, the other reads: they share one value in self."
+            hint = ("One callback counts the beats and the other reports them: both use the same attribute "
+                    "of self.")
             raise Missed(f"“Beats: {most}” at {report.stamp:.3g} s", f"“{report.text}”", hint)

@@ -11,7 +11,7 @@ HELLO = r"^\W*?Hello, robot!"
 @hello.check(7)
 def logs_hello(run: Recording) -> None:
     """The node logs “Hello, robot!” at info level."""
-    silent = "Debug lines are hidden, so use info; and a method that isn't called logs nothing."
+    silent = "Debug lines are hidden, so use info. If you do, is your method ever called?"
     with hinting("" if run.logs or run.prints else silent):
         logs(run, HELLO, level="INFO", example="Hello, robot!")
 
@@ -21,4 +21,4 @@ def logs_it_once(run: Recording) -> None:
     """It does so once."""
     count = len(logs(run, HELLO))
     if count > 1:
-        raise Missed("one line", f"{count} lines", "__init__ runs once for each node: there is the place.")
+        raise Missed("one line", f"{count} lines", "__init__ runs once for each node: log the line there.")

@@ -25,22 +25,22 @@ def logs_the_weather(run: Recording) -> list[LogMatch]:
 
 @weather.check(3, after=logs_the_weather)
 def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
-    """The readings come in order, and after the last one the first again."""
+    """The readings come in order, and start over after the last one."""
     found = [round(_celsius(line)) for line in lines]
     wanted = [READINGS[index % len(READINGS)] for index in range(max(len(found), len(READINGS) + 1))]
     if found != wanted[: len(found)] or len(found) < len(wanted):
-        hint = "Keep the number of the next reading in self; index % len(READINGS) goes round in a circle."
+        hint = "Store the index of the next reading in self; index % len(READINGS) wraps around to 0."
         first_round = found[: len(READINGS)] == list(READINGS)
         raise Missed(listed(wanted), listed(found), hint, credit=0.5 * first_round)
 
 
 @weather.check(4, after=logs_the_weather)
 def converts(run: Recording, lines: list[LogMatch]) -> None:
-    """The degrees Fahrenheit are right, to one decimal."""
+    """The temperature in Fahrenheit is right, to one decimal place."""
     wrong = [line for line in lines if abs(float(line.groups[1]) - _fahrenheit(line)) >= 0.051]
     if wrong:
         expected = f"{_celsius(wrong[0]):g} C = {_fahrenheit(wrong[0]):.1f} F"
-        hint = "Try your function in a cell: 0 °C are 32 °F, and 100 °C are 212 °F."
+        hint = "Try your function in a cell: 0 °C is 32 °F, and 100 °C is 212 °F."
         raise Missed(expected, f"“{wrong[0].text}”", hint, credit=1 - len(wrong) / len(lines))
 
 
@@ -50,13 +50,13 @@ def describes(run: Recording, lines: list[LogMatch]) -> None:
     wrong = [line for line in lines if line.groups[2].lower() != _word(line)]
     if wrong:
         expected = f"{wrong[0].groups[0]} C to be {_word(wrong[0])}"
-        hint = "Try your function in a cell, at the edges above all: -1, 0, 29 and 30."
+        hint = "Try your function in a cell, especially at the edges: -1, 0, 29 and 30."
         raise Missed(expected, f"“{wrong[0].text}”", hint, credit=1 - len(wrong) / len(lines))
 
 
 @weather.check(4, after=logs_the_weather)
 def warns_of_frost_and_heat(run: Recording, lines: list[LogMatch]) -> None:
-    """Frost and hot are warnings, mild is information."""
+    """Frost and hot are logged as warnings, mild as info."""
     wrong = [line for line in lines if line.level != _level(line)]
     if wrong:
         expected, saw = f"“{wrong[0].text}” at level {_level(wrong[0])}", f"it at level {wrong[0].level}"

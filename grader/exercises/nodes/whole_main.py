@@ -19,7 +19,7 @@ def counts_down(run: Recording) -> Seconds:
     if not found:
         raise Missed(expected, "none of them", "Callbacks run while the node spins: rclpy.spin(node).")
     if found != ["3", "2", "1"]:
-        raise Missed(expected, ", ".join(found), "Make one node, and spin until Ctrl-C ends it.")
+        raise Missed(expected, ", ".join(found), "Create one node, and spin it until Ctrl-C.")
     return lines[-1].stamp
 
 
@@ -28,22 +28,22 @@ def ends_quietly(run: Recording) -> Trace:
     """Ctrl-C ends main(), without a traceback."""
     trace = trace_of(run)
     if trace is None:
-        hint = "After Ctrl-C nothing may spin again: the try block stands around all of the spinning."
-        raise Missed("main() at its end", f"main() still running at {run.ended.stamp:g} s", hint)
+        hint = "After Ctrl-C nothing may spin again: put all of the spinning inside the try block."
+        raise Missed("main() to return", f"main() still running at {run.ended.stamp:g} s", hint)
     if trace.raised:
         hint = "See the error above."
         if trace.raised == "KeyboardInterrupt":
-            hint = "After the try block comes `except KeyboardInterrupt:`, and there `pass` is enough."
+            hint = "Follow the try block with `except KeyboardInterrupt:`; a `pass` in it is enough."
         cleaned = not (trace.still_up and trace.nodes)
         saw = f"{trace.raised} came out of main()"
-        raise Missed("main() at its end", saw, hint, credit=0.5 * cleaned, measured=trace)
+        raise Missed("main() to return", saw, hint, credit=0.5 * cleaned, measured=trace)
     return trace
 
 
 @whole_main.check(3, after=(ends_quietly, counts_down))
 def logs_engine_off(run: Recording, trace: Trace, counted: Seconds) -> None:
     """After Ctrl-C the node logs “Engine off”."""
-    with hinting("What has to be done at the end, whatever happens, belongs in the finally block."):
+    with hinting("Anything that must happen at the end, even after an error, belongs in the finally block."):
         last = logs(run, r"^\W*?engine off", example="Engine off")[-1].stamp
         if last <= counted:
             raise Missed(f"“Engine off” after Ctrl-C, at {counted + 1:g} s", f"it at {last:.3g} s")
@@ -53,7 +53,7 @@ def logs_engine_off(run: Recording, trace: Trace, counted: Seconds) -> None:
 def destroys_the_node(run: Recording, trace: Trace) -> None:
     """The node is destroyed."""
     if trace.nodes:
-        hint = "destroy_node() belongs in the finally block, where it is reached whatever happens."
+        hint = "destroy_node() belongs in the finally block, which always runs."
         raise Missed("no node left after main()", f"{trace.nodes} is still there", hint)
 
 
@@ -61,5 +61,5 @@ def destroys_the_node(run: Recording, trace: Trace) -> None:
 def shuts_down(run: Recording, trace: Trace) -> None:
     """ROS is shut down."""
     if trace.still_up:
-        hint = "What rclpy.init() began, rclpy.try_shutdown() ends: last line of the finally block."
+        hint = "rclpy.init() needs its rclpy.try_shutdown(): make it the last line of the finally block."
         raise Missed("rclpy.ok() to be False after main()", "it is still True", hint)

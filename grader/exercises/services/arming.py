@@ -14,10 +14,11 @@ ARM = "/arm"
 CALLS = 6  # that the pilot makes
 SPEED = 0.3  # m/s
 STILL, JUST = 0.01, 0.3  # meters, seconds
-INVERTED = "Each call did the opposite of what it asked for: self.armed = request.data."
-SWITCHES = "Each call switches over, whatever it asks for: write self.armed = request.data."
-NOT_YET = "A robot must not start by itself: self.armed = False in __init__, and drive looks at it."
-NO_MORE = "request.data says what is wanted: self.armed = request.data. While it is False, send zeros."
+INVERTED = "Each call did the opposite of its request: write self.armed = request.data."
+SWITCHES = "Each call toggles it, whatever the request: write self.armed = request.data."
+NOT_YET = "A robot must not start by itself: set self.armed = False in __init__, and check it in drive."
+NO_MORE = ("request.data is the state that the caller wants: self.armed = request.data. While it is False, "
+           "send zeros.")
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
 
 arming = Exercise("arming", "A robot that drives only when it is armed", world="yard", seconds=17,
@@ -32,9 +33,9 @@ def offers_to_arm(run: Recording) -> None:
 
 @arming.check(3, after=offers_to_arm, guess={
     INVERTED: lambda run, call: _is_inverted(run),
-    "success says whether the call went well, and here it always does. The message says the rest.":
+    "success tells the caller whether the call worked, and here it always does. The message has the rest.":
         lambda run, call: _words(call) == [_word(call)],
-    'The message says how things are after this call: "armed" if self.armed else "disarmed".': (
+    'The message is the state after this call: "armed" if self.armed else "disarmed".': (
         lambda run, call: is_success(call)
     ),
 })
@@ -49,14 +50,15 @@ def reports_its_state(run: Recording) -> None:
     "Nothing was published on /cmd_vel: publish a Twist in drive, each time.":
         lambda run, call: not run.messages("/cmd_vel"),
     INVERTED: lambda run, call: _is_inverted(run),
-    "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.":
+    "It turns on the spot: linear.x is the forward speed; angular.z is how fast it turns.":
         lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z"),
-    "All commands were 0: does arm set self.armed (with self), and does drive look at it?":
+    "All commands were 0: does arm set self.armed (with self), and does drive check it?":
         lambda run, call: not _commands(run, "linear.x"),
     SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
     "A second data=True must not switch it off again: write self.armed = request.data.":
         lambda run, call: any(other.request.data for other in _before(run, call)[-1:]),
-    f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": otherwise,
+    f"In drive: linear.x = {SPEED} if self.armed. Publish a command every time drive is called, 10 times a "
+    "second.": otherwise,
 })
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""

@@ -15,7 +15,8 @@ from sim.evidence import Call, Recording, Seconds
 CALIBRATE, RAW, RATE = "/gyro/calibrate", "/gyro/raw", "/gyro/rate"
 CLOSE, NEW = 0.001, 0.021  # rad/s, s
 Signal = list[tuple[Seconds, float]]
-ENOUGH = f"It refused with {READINGS} readings. Refuse only below that: if len(self.readings) < {READINGS}."
+ENOUGH = (f"It refused with {READINGS} readings. Refuse only if there are fewer: if len(self.readings) < "
+          f"{READINGS}.")
 
 calibrate = Exercise("calibrate", "A gyro that can be calibrated", seconds=10,
                      companions=[RawGyro, Technician], seeds=(1, 2))
@@ -29,19 +30,19 @@ def offers_to_calibrate(run: Recording) -> None:
 
 @calibrate.check(4, after=offers_to_calibrate)
 def refuses_too_early(run: Recording) -> None:
-    """With fewer than 50 readings it refuses: success is False, and the message says why."""
+    """With fewer than 50 readings it refuses: success is False, and the message gives the reason."""
     for call in course_calls(run, CALIBRATE, at_least=2):
         count = len(_readings_before(run, call))
         if count >= READINGS:
             continue
         expected = f"success=False and a message after {count} readings, for {call_text(call)}"
         if not is_refusal(call):
-            guess = (f"First of all look at len(self.readings). Below {READINGS}: response.success = False, "
+            guess = (f"Check len(self.readings) first. Below {READINGS}: response.success = False, "
                      "response.message = ..., return response.")
             raise wrong_response(expected, call, guess)
         if not call.response.message.strip():
             decides = any(map(is_success, course_calls(run, CALIBRATE)))  # an empty response is no refusal
-            raise wrong_response(expected, call, "Say in response.message why not.", credit=0.5 * decides)
+            raise wrong_response(expected, call, "Give the reason in response.message.", credit=0.5 * decides)
 
 
 @calibrate.check(4, after=offers_to_calibrate)
@@ -53,7 +54,8 @@ def gyro_reads_zero(run: Recording) -> None:
             raise Missed(f"messages on {RATE} after {call_text(it.call)}", "none", hint, picture="topics")
         if it.unrelated is not None:
             expected = f"each reading of {RAW} minus the bias, after {call_text(it.call)}"
-            raise Missed(expected, f"{it.unrelated:.3g} rad/s, which is none of them", hint, picture="topics")
+            raise Missed(expected, f"{it.unrelated:.3g} rad/s, which matches none of them", hint,
+                         picture="topics")
         if abs(it.rate) > 0.01:
             expected = f"a mean of 0 rad/s, within 0.01, in the second after {call_text(it.call)}"
             saw = f"{it.rate:.3g} rad/s"
@@ -62,7 +64,7 @@ def gyro_reads_zero(run: Recording) -> None:
 
 @calibrate.check(3, after=offers_to_calibrate)
 def reports_the_bias(run: Recording) -> None:
-    """A calibration responds with success, and its message names the bias it found."""
+    """A calibration responds with success, and the message gives the bias it found."""
     for it in _calibrations(run):
         expected = f"success=True and {it.bias:.3f} in the message, for {call_text(it.call)}"
         if not is_success(it.call):
@@ -71,7 +73,7 @@ def reports_the_bias(run: Recording) -> None:
             raise wrong_response(expected, it.call, ENOUGH if unchanged else yes)
         numbers = [float(number) for number in re.findall(r"-?\d+\.\d+", it.call.response.message)]
         if not any(abs(number - good) < 0.0015 for number in numbers for good in (it.bias, it.used)):
-            guess = 'An f-string fills it in: response.message = f"bias {self.bias:.3f} rad/s".'
+            guess = 'An f-string inserts the number: response.message = f"bias {self.bias:.3f} rad/s".'
             raise wrong_response(expected, it.call, guess)
 
 
@@ -119,13 +121,13 @@ def _mean(values: list[float]) -> float:
 
 
 def _bias_hint(it: Calibration, first: bool) -> str:
-    unchanged = "The readings come out as they came in: calibrate has to set self.bias, with self."
+    unchanged = "The readings are published unchanged: calibrate has to set self.bias, with self."
     biases = {
         "The bias was added instead of subtracted: publish the reading minus self.bias.": 2 * it.bias,
         ENOUGH if is_refusal(it.call) else unchanged: it.bias,
     }
-    otherwise = f"self.bias is the mean of the readings: their sum / their number, {it.bias:.3f} rad/s here."
+    otherwise = f"self.bias is the mean of the readings: sum(...) / len(...), {it.bias:.3f} rad/s here."
     if not first:
-        otherwise = ("The first calibration was good, this later one is not: the gyro is warmer now. Take "
-                     f"the mean of the last {READINGS} readings, each time anew.")
+        otherwise = ("The first calibration was good, but this later one isn't: the gyro is warmer now. "
+                     f"Compute a new mean each time, of the last {READINGS} readings.")
     return usual_mistake(biases, lambda bias: same(it.rate, bias, 0.02)) or otherwise

@@ -10,8 +10,8 @@ from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import Call, Recording
 
-WAITING = ("While a callback or __init__ waits, nothing else of the node can run, and no answer comes in. "
-           "Ask, return, and let the done callback do the rest.")
+WAITING = ("While a callback or __init__ waits, nothing else in the node can run, and no response can "
+           "arrive. Send the request, return, and let the done callback do the rest.")
 OPEN = "/door/open"
 
 door = Exercise("door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2))
@@ -25,25 +25,26 @@ def calls_the_door(run: Recording) -> list[Call]:
     lost = [call for call in made if call.lost]
     answered = [call for call in made if call.answered is not None]
     if lost or not taken:
-        hint = ("A question to a service that isn't there yet is lost. Let a timer look once a second, and "
-                "ask only when self.client.service_is_ready(), with brackets, is True.")
-        saw = f"{len(lost)} asked too early, at {lost[0].requested:.3g} s" if lost else "no question"
+        hint = ("A request to a service that isn't there yet is lost. Let a timer check once a second, and "
+                "call only when self.client.service_is_ready(), with parentheses, is True.")
+        saw = f"{len(lost)} sent too early, the first at {lost[0].requested:.3g} s" if lost else "no request"
         credit = 0.5 if taken else 0.0
-        raise Missed("questions to the door, once it is there", saw, hint, credit=credit, measured=answered)
+        raise Missed("requests to the door, once its service is there", saw, hint, credit=credit,
+                     measured=answered)
     if all(call.received is None for call in taken):
-        saw = f"it asked at {taken[0].requested:.3g} s, and took no answer"
-        raise Missed("a question, and the answer", saw, WAITING)
+        saw = f"a request at {taken[0].requested:.3g} s, whose response was never received"
+        raise Missed("a request, and its response", saw, WAITING)
     return answered
 
 
 @door.check(3, after=calls_the_door)
 def keeps_driving_commands(run: Recording) -> None:
-    """While it waits, the node keeps working: a command on /cmd_vel comes 10 times a second."""
+    """While it waits, the node keeps working: it publishes a command on /cmd_vel 10 times a second."""
     keeps_pace(run, "/cmd_vel", WAITING)
 
 
 @door.check(3, after=calls_the_door,
-            guess="In the done callback: answer = future.result(). When answer.success is False: "
+            guess="In the done callback: answer = future.result(). If answer.success is False: "
             "self.get_logger().warning(answer.message).")
 def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
     """Each refusal is logged as a warning, with the door's message."""
@@ -52,7 +53,7 @@ def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
         soon = Window.after(call.answered, 0.6).rows(run.logs)
         lines = [line for line in soon if message in line.text]
         if not any(line.level == "WARN" for line in lines):
-            saw = f"“{lines[0].text}” at level {lines[0].level}" if lines else "no line with it"
+            saw = f"“{lines[0].text}” at level {lines[0].level}" if lines else "no line with this text"
             raise Missed(f"a warning with “{message}” at {call.answered:.3g} s", saw)
 
 
@@ -61,19 +62,19 @@ def calls_until_yes(run: Recording, answered: list[Call]) -> None:
     """After a refusal it calls again, about once a second; after a success it doesn't."""
     pauses = [after.requested - before.answered for before, after in itertools.pairwise(answered)]
     if pauses and max(pauses) < 0.3:
-        saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it asks again before the answer is there"
-        guess = "Only the timer asks, once a second: no loop, and not the done callback."
-        raise Missed("a pause of about a second before it asks again", saw, guess=guess)
+        saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it calls again before the response has arrived"
+        guess = "Call only from the timer, once a second: not in a loop, and not from the done callback."
+        raise Missed("a pause of about a second before the next call", saw, guess=guess)
     yes = _yes(answered)
     if yes is None:
-        saw = f"{len(answered)} in all, the last at {answered[-1].requested:.3g} s, and it was refused"
-        guess = "Let a timer ask once a second, for as long as the answer is no."
-        raise Missed("questions until the door says yes", saw, guess=guess)
+        saw = f"{len(answered)} in all, the last at {answered[-1].requested:.3g} s, and that one was refused"
+        guess = "Let a timer call once a second, for as long as the door refuses."
+        raise Missed("calls until the door says yes", saw, guess=guess)
     late = [call for call in answered if call.requested > yes.answered]
     if late:
         saw = f"{len(late)}, the first at {late[0].requested:.3g} s"
-        guess = "When it is open: self.timer.cancel() stops the asking."
-        raise Missed("no question after the yes", saw, guess=guess)
+        guess = "Once the door is open, stop calling: self.timer.cancel()."
+        raise Missed("no call after the yes", saw, guess=guess)
 
 
 @door.check(3, after=calls_the_door)
@@ -85,13 +86,13 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
     early = [(at, speed) for at, speed in commands if speed and at < opened]
     if early:
         saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
-        hint = "Not every answer is a yes: look at answer.success before you drive."
+        hint = "Not every answer is a yes: check answer.success before you drive."
         raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
     late = [(at, speed) for at, speed in commands if at > opened + 0.5 and abs(speed - 0.3) > 0.03]
     if late or not yes:
         saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
         guess = "In the done callback, when answer.success is True: self.speed = 0.3."
-        raise Missed("0.3 m/s from the yes on", saw, guess=guess)
+        raise Missed("0.3 m/s once the door has said yes", saw, guess=guess)
 
 
 def _yes(calls: list[Call]) -> Call | None:

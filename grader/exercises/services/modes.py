@@ -19,10 +19,10 @@ STOPPED: Velocity = (0.0, 0.0)
 SOON = 0.3  # seconds until a change shows in the commands
 DRIVE = (
     'In drive, while armed: msg.linear.x, msg.angular.z = MODES[self.get_parameter("mode").value], '
-    "asked for anew each time."
+    "looked up each time."
 )
 BUMPED = "In on_bumper, when the robot has just bumped: self.armed = False and self.bumped = True."
-UNARMED = "Only arming makes the robot drive: look at self.armed in drive, and send zeros without it."
+UNARMED = "Only an armed robot may drive: check self.armed in drive, and send zeros while it is False."
 
 modes = Exercise("modes", "A mode manager", scenarios=[
     Scenario("room", 40, 1, [Operator], name="operated"),
@@ -81,7 +81,7 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     _commands(run.during(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
     refusal = is_refusal(again)
     if not refusal or not again.response.message.strip():
-        guess = ("In arm: if request.data and self.bumped, then success is False, and the message says what "
+        guess = ("In arm: if request.data and self.bumped, set success to False and let the message say what "
                  "to do; otherwise self.armed = request.data.")
         expected = f"success=False and a message for {call_text(again)}"
         missed = wrong_response(expected, again, guess, credit=0.6 if refusal else 0.0)
@@ -98,8 +98,8 @@ def drives_on_after_a_reset(run: Recording) -> None:
     _is_accepted(reset)
     arm, disarm = course_calls(run, ARM, at_least=6)[-2:]
     _commands(run.during(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
-    again = ("reset has to take back what the bump has set: self.bumped = False. And still touching the "
-             "wall is not a new bump.")
+    again = ("reset has to undo what the bump set: self.bumped = False. Still touching the wall isn't a "
+             "new bump.")
     _is_accepted(arm, again)
     back = run.during(arm.requested + SOON, disarm.requested)
     _commands(back, MODES["back"], "in the mode back, armed after a reset")
@@ -110,7 +110,7 @@ def _starts_with_no_other(run: Recording) -> None:
     """A program that is started with a mode that it doesn't know does not have it."""
     calls = [call for call in course_calls(run, GET, at_least=0) if call.response is not None]
     if any(response_fields(call).get("value") == STRANGE for call in calls):
-        hint = ("The first value is checked only if self.add_on_set_parameters_callback(self.check) comes "
+        hint = ("The initial value is checked only if self.add_on_set_parameters_callback(self.check) comes "
                 "before self.declare_parameter(...).")
         expected = f"no mode {STRANGE!r}, started with mode:={STRANGE}"
         raise Missed(expected, f"mode={STRANGE!r} at {calls[0].requested:.3g} s", hint, credit=0.5)

@@ -31,13 +31,13 @@ def declares_speed(run: Recording) -> float:
     given = response_fields(course_calls(run, GET)[0])
     if not isinstance(given.get("value"), float):
         expected = "a parameter `speed` of /cruiser with a value such as 0.2"
-        raise Missed(expected, "no such parameter, or one of another kind" if given else "no answer")
+        raise Missed(expected, "no such parameter, or one of another type" if given else "no answer")
     return given["value"]
 
 
 @parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
-    """Until it is set, the speed is 0.2, and the robot drives with that."""
+    """Until it is set, the speed is 0.2, and the robot drives at that speed."""
     _begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
@@ -47,7 +47,7 @@ def follows_the_setting(run: Recording) -> None:
     made = course_calls(run, SET, SETTINGS)
     for call in filter(_is_allowed, made):
         if not is_success(call):
-            guess = (f"A speed from {LOW} to {HIGH}, both ends included, is fine. Look at the new one, in "
+            guess = (f"A speed from {LOW} to {HIGH}, both ends included, is fine. Compare the new one, "
                      "parameter.value, and return SetParametersResult(successful=True).")
             raise wrong_response(f"successful=True for {call_text(call)}", call, guess)
         later = [other.requested for other in made if other.requested > call.requested]
@@ -64,20 +64,21 @@ def refuses_other_speeds(run: Recording) -> None:
     for call in others:
         expected = f"successful=False and a reason for {call_text(call)}"
         if not is_refusal(call):
-            guess = ("Nothing was refused. Is the method handed over, "
-                     "self.add_on_set_parameters_callback(self.check)? And does it refuse where "
-                     f"parameter.name is `speed`, unless {INSIDE}?")
+            guess = ("Nothing was refused. Did you register the method, "
+                     "self.add_on_set_parameters_callback(self.check)? And does it refuse when "
+                     "parameter.name is `speed`, "
+                     f"unless {INSIDE}?")
             if _is_cut(run, call):
                 guess = (
                     "Clipping a value to the range doesn't reject it: the request succeeds, "
-                    "well, and the robot does something else. Return SetParametersResult(successful=False, "
+                    "and the robot does something else. Return SetParametersResult(successful=False, "
                     'reason="...").'
                 )
             if any(map(is_refusal, others)):
                 guess = f"The range has two ends: refuse a value unless {INSIDE}."
             raise wrong_response(expected, call, guess)
         if not response_fields(call)["reason"].strip():
-            guess = 'Say why: SetParametersResult(successful=False, reason="...").'
+            guess = 'Give a reason: SetParametersResult(successful=False, reason="...").'
             raise wrong_response(expected, call, guess, credit=0.6)
 
 
@@ -87,7 +88,7 @@ def _starts_with_no_other(run: Recording) -> None:
     driven = [(row.stamp, x) for row in commands if not LOW <= (x := row.message.linear.x) <= HIGH]
     if driven:
         expected = f"no speed beyond {HIGH} m/s, started with speed:={TOO_FAST}"
-        hint = ("The first value is checked only if self.add_on_set_parameters_callback(self.check) comes "
+        hint = ("The initial value is checked only if self.add_on_set_parameters_callback(self.check) comes "
                 "before self.declare_parameter(...).")
         raise Missed(expected, f"{driven[0][1]:g} m/s at {driven[0][0]:.3g} s", hint, credit=0.5)
 
@@ -123,8 +124,8 @@ def _drives_at(run: Recording, speed: float, begin: Seconds, end: Seconds) -> No
     if other or not values:
         saw = f"{other[0][1]:g} m/s at {other[0][0]:.3g} s" if other else "no command"
         hint = (
-            "Ask for the value each time you need it, in drive: "
-            'self.get_parameter("speed").value. One that is read in __init__ never changes.'
+            "Look the value up each time you need it, in drive: "
+            'self.get_parameter("speed").value. A value read in __init__ never changes.'
         )
         raise Missed(f"linear.x {speed:g} m/s on /cmd_vel from {begin:.3g} s on", saw, hint, picture="topics")
 
@@ -136,7 +137,7 @@ launch = Exercise("launch", "The same node, with another speed", world="yard", s
 def launches_the_cruiser(run: Recording) -> float:
     """The node /cruiser runs, and has its parameter `speed`."""
     if all(map(run.is_course_node, run.graph.nodes)):
-        hint = "launch hands back what is to be started: return Process(...), with Cruiser in it."
+        hint = "launch returns what should be started: return Process(...), with Cruiser in it."
         raise Missed("a node called /cruiser", "no node was started", hint)
     return declares_speed(run)
 
@@ -144,5 +145,5 @@ def launches_the_cruiser(run: Recording) -> float:
 @launch.check(2, after=launches_the_cruiser,
               guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).')
 def is_launched_with_a_speed(run: Recording, speed: float) -> None:
-    """It is started with a speed of 0.3, and drives with that."""
+    """It is started with a speed of 0.3, and drives at that speed."""
     _begins_with(run, speed, LAUNCHED)

@@ -10,8 +10,8 @@ from sim.evidence import Call, Recording
 
 MOST = 1.5  # questions a second, and messages for each answer: more are guesses
 ADD, TOTAL = "/add_two_ints", "/ticks/total"
-GROUPS = ("While look waits for an answer, or awaits it, nothing else of its callback group runs. Give its "
-          "timer and the client a group of their own, a ReentrantCallbackGroup; or use a done callback.")
+GROUPS = ("While look waits for a response, or awaits it, nothing else in its callback group runs. Put its "
+          "timer and the client in a separate ReentrantCallbackGroup; or use a done callback.")
 
 ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders],
                  seeds=(1, 2))
@@ -23,8 +23,9 @@ def calls_every_second(run: Recording) -> list[Call]:
     made = has_client(run, ADD, "example_interfaces/srv/AddTwoInts")
     due = int(run.seconds) - 1
     if not 0.8 * due <= len(made) <= MOST * run.seconds:
-        hint = "Let a timer with a period of 1 s call look, and ask there: self.client.call_async(request)."
-        raise Missed(f"{due} questions in {run.seconds:g} s", f"{len(made)}", hint)
+        hint = ("Let a timer with a period of 1 s call look, and send the request there: "
+                "self.client.call_async(request).")
+        raise Missed(f"{due} requests in {run.seconds:g} s", f"{len(made)}", hint)
     return made
 
 
@@ -40,12 +41,12 @@ def publishes_the_totals(run: Recording, made: list[Call]) -> None:
         sums = [row.message.data for row in sent]
         if total not in sums:
             saw = f"{', '.join(map(str, sums)) or 'no message'} in the 0.2 s after it"
-            guess = "Publish the sum of the answer itself, once it is there: answer.sum."
-            raise Missed(f"{total} on {TOTAL}, the answer of {call.answered:.3g} s", saw, guess=guess)
+            guess = "Publish the sum from the response, once it has arrived: answer.sum."
+            raise Missed(f"{total} on {TOTAL}, from the response at {call.answered:.3g} s", saw, guess=guess)
     count, answered = len(run.messages(TOTAL)), sum(call.answered is not None for call in made)
     if count > MOST * answered:
-        hint = "Publish one sum for each answer, that of the answer."
-        raise Missed(f"one message for each of {answered} answers", f"{count} on {TOTAL}", hint)
+        hint = "Publish one sum for each response: the one in it."
+        raise Missed(f"one message for each of {answered} responses", f"{count} on {TOTAL}", hint)
 
 
 @ticks.check(2, after=calls_every_second)
@@ -57,7 +58,7 @@ def sends_the_newest_ticks(run: Recording, made: list[Call]) -> None:
         left, right = ([value for at, value in side if at <= call.requested][-2:] for side in counts)
         a, b = call.request.a, call.request.b
         if not (a in left and b in right) and not (b in left and a in right):
-            hint = "AddTwoInts.Request(a=self.left, b=self.right), made anew for each question."
+            hint = "Build a new AddTwoInts.Request(a=self.left, b=self.right) for each call."
             raise Missed(f"a={left[-1]}, b={right[-1]}", call_text(call), hint)
 
 

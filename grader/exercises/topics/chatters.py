@@ -16,15 +16,15 @@ CHATTERS = {
 }
 WITHIN = 0.25  # s from a message to its log line; the next message comes later
 NAMED = re.compile(r"chatter\d: \S+", re.I)
-DETAILS = "details of the message's way where its topic should be"
+DETAILS = "details of how the message arrived where its topic should be"
 
 chatters = Exercise("chatters", "Three topics, one callback", seconds=10, companions=[Chatterbox],
                     seeds=(1, 2))
 
 
-@chatters.check(4, guess="Make one subscription for each topic, in a loop or one by one.")
+@chatters.check(4, guess="Create one subscription for each topic, in a loop or one by one.")
 def subscribes_to_all_three(run: Recording) -> None:
-    """The node listens to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
+    """The node subscribes to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
     for found, (topic, kind) in enumerate(CHATTERS.items()):
         try:
             subscribes(run, topic, kind)
@@ -34,15 +34,16 @@ def subscribes_to_all_three(run: Recording) -> None:
 
 
 @chatters.check(8, after=subscribes_to_all_three, hints={
-    "A callback with two parameters gets such details as the second. "
-    "Give it the topic: partial(self.on_message, topic=topic).": lambda run, row: _has_details(run, row),
-    "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
-    "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial.":
+    "A callback with two parameters is given such details as the "
+    "second. Pass it the topic instead: partial(self.on_message, "
+    "topic=topic).": lambda run, row: _has_details(run, row),
+    "Every line names /chatter2. A lambda made in a loop reads the variable when it is called, and "
+    "by then the loop is over. Write `lambda msg, topic=topic: ...`, or use partial.":
         lambda run, row: row.topic != "/chatter2" and _is_logged(run, row, "/chatter2"),
     "Nothing is logged at all. Debug lines are hidden: use self.get_logger().info(...).":
         lambda run, row: not run.logs,
     "False is a value like any other, but `if msg.data:` lets only True pass: "
-    "log each message, whatever it says.":
+    "log every message, whatever its value.":
         lambda run, row: run.graph.subscriptions(row.topic) and row.message.data is False
         and not _lines_after(run, row),
 }, guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").')
@@ -79,9 +80,9 @@ def _requires_no_others(run: Recording) -> None:
         came = tuple(_line(row, row.topic).lower() for row in recent)
         other = next((one[0] for one in NAMED.finditer(line.text) if not one[0].lower().startswith(came)), "")
         if other:
-            hint = "Log in the callback, and there the message that it was called with."
-            saw = f"“{other}” at {line.stamp:.3g} s, when no such message had come"
-            raise Missed("log lines about messages that came, and no others", saw, hint)
+            hint = "Log in the callback, and log the message it was called with."
+            saw = f"“{other}” at {line.stamp:.3g} s, although no such message had arrived"
+            raise Missed("only log lines about messages that arrived", saw, hint)
 
 
 def _is_logged(run: Recording, row: Message, topic: str) -> bool:

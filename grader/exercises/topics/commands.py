@@ -11,14 +11,14 @@ from sim.evidence import LogLine, Message, Recording
 COMMAND = "/robot/command"
 DOING = dict(zip(COMMANDS, ("standing", "walking", "stopping"), strict=True))
 WITHIN = 0.25  # s from a message to its log line; the next message comes later
-PRINTED = "What is printed is not logged: use self.get_logger() instead of print(...)."
+PRINTED = "print(...) doesn't log anything: use self.get_logger() instead."
 
 commands = Exercise("commands", "A robot that listens", seconds=10, companions=[CommandSender], seeds=(1, 2))
 
 
 @commands.check(3)
 def subscribes_to_commands(run: Recording) -> None:
-    """The node listens to String messages on /robot/command."""
+    """The node subscribes to String messages on /robot/command."""
     subscribes(run, COMMAND, "std_msgs/msg/String")
 
 
@@ -35,13 +35,13 @@ def obeys(run: Recording) -> None:
     if len(wrong) > len(sent) / 2:
         row, line = wrong[0]
         expected = f"only “{DOING[row.message.data]}” after “{row.message.data}”"
-        hint = "To say everything is to answer nothing. With if, elif, else exactly one branch runs."
+        hint = "Answering everything answers nothing. With if, elif, else exactly one branch runs."
         raise Missed(expected, f"“{line.text[:60]}” at {row.stamp:.3g} s", hint)
 
 
 @commands.check(4, after=subscribes_to_commands, guess={
     PRINTED: lambda run: run.prints,
-    "In an else: self.get_logger().warning(...), with the word msg.data in the text.": lambda run: True,
+    "In the else branch: self.get_logger().warning(...), with msg.data in its text.": lambda run: True,
 })
 def warns(run: Recording) -> None:
     """Any other word is answered with a warning that names the word."""

@@ -32,7 +32,7 @@ def imu_names_its_frame(run: Recording, sent: list[Message]) -> None:
         if frame != "imu_link":
             hint = 'Set it before publish(): msg.header.frame_id = "imu_link".'
             if frame == "/imu_link":
-                hint = "A frame's name has no slash in front."
+                hint = "A frame's name doesn't begin with a slash."
             saw = f"“{frame}” at {row.stamp:.3g} s"
             raise Missed("header.frame_id “imu_link” in every message", saw, hint)
 
@@ -43,12 +43,12 @@ def imu_is_stamped(run: Recording, sent: list[Message]) -> None:
     for row in sent:
         stamp = row.message.header.stamp
         if abs(since_start(stamp) - row.stamp) > 0.02:
-            expected = f"a stamp of {row.stamp:.3f} s after the start in the message sent then"
+            expected = f"the stamp {row.stamp:.3f} s (since the start) in the message sent at that time"
             hint = "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg()."
             raise Missed(expected, stamp_words(stamp), hint)
 
 
-@imu.check(2, after=imu_is_published, guess="msg.linear_acceleration.z = 9.81; upwards is positive.")
+@imu.check(2, after=imu_is_published, guess="msg.linear_acceleration.z = 9.81: up is positive.")
 def imu_feels_gravity(run: Recording) -> None:
     """The acceleration along z is 9.81 m/s²."""
     within(run, IMU, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
@@ -56,18 +56,19 @@ def imu_feels_gravity(run: Recording) -> None:
 
 @imu.check(3, after=imu_is_published)
 def imu_looks_left(run: Recording, sent: list[Message]) -> None:
-    """The orientation is a unit quaternion that says: turned 90 degrees to the left."""
+    """The orientation is a unit quaternion for a robot turned 90 degrees to the left."""
     for row in sent:
         q = row.message.orientation
         length = math.hypot(q.x, q.y, q.z, q.w)
         if not abs(length - 1.0) < 0.01:
             expected = "a quaternion of length 1"
-            hint = "A quaternion holds no angles: z = math.sin(yaw / 2), w = math.cos(yaw / 2), x = y = 0."
+            hint = ("The numbers in a quaternion aren't angles: z = math.sin(yaw / 2), w = math.cos(yaw / "
+                    "2), x = y = 0.")
             raise Missed(expected, f"length {length:.3g} at {row.stamp:.3g} s: {_text(q)}", hint)
         if abs(q.z * LEFT + q.w * LEFT) < 0.999:  # 1 for the same rotation, with either sign
             expected = f"the quaternion {_text(type(q)(z=LEFT, w=LEFT))}"
-            hint = ("yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in "
-                    "radians.")
+            hint = ("90 degrees to the left is a yaw of pi/2: z = math.sin(yaw / 2), w = math.cos(yaw / "
+                    "2).")
             raise Missed(expected, f"{_text(q)} at {row.stamp:.3g} s", hint, credit=1 / 3)
 
 

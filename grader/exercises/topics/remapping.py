@@ -21,7 +21,7 @@ def odometry_reaches_the_node(run: Recording) -> None:
 
 
 @remapping.check(4, after=(commands_reach_the_robot, odometry_reaches_the_node),
-                 guess="OneMeter does this by itself, once both names are right.")
+                 guess="OneMeter drives the meter by itself once both names are right.")
 def drives_one_meter(run: Recording) -> None:
     """The robot drives one meter straight on and stops there."""
     arrives(run, (1.0, 0.0), tolerance=0.1)

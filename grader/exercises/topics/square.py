@@ -31,7 +31,7 @@ def sends_velocities(run: Recording) -> None:
         lambda run: any(b - a > TIMEOUT for a, b in itertools.pairwise(stamps(run.messages("/cmd_vel")))),
     "The robot turned right. A positive angular.z turns left.":
         lambda run: closest(run.path, (1.0, -1.0))[0] < NEAR,
-    "Speed times seconds is the way: 1 m for a side, pi/2 rad for a corner. The picture shows yours.":
+    "Speed times time must give 1 m for a side and pi/2 rad for a corner. The picture shows what yours gave.":
         lambda run: True,
 })
 def passes_the_corners(run: Recording) -> None:
@@ -41,21 +41,22 @@ def passes_the_corners(run: Recording) -> None:
 
 @square.check(3, after=passes_the_corners, guess="The picture shows where it leaves the square.")
 def keeps_to_the_line(run: Recording) -> None:
-    """On its way the robot stays within 15 cm of the square's sides."""
+    """On the way the robot stays within 15 cm of the square's sides."""
     length = traveled(run)
     if length < 3.0:
-        expected, saw = "a way along all four sides, 4 m", f"a way of {length:.2f} m"
+        expected, saw = "a path along all four sides, 4 m long", f"a path of {length:.2f} m"
         raise Missed(expected, saw, "Drive the whole square first.", picture="path")
     follows(run, [START, *CORNERS, START], tolerance=NEAR)
 
 
-@square.check(3, after=passes_the_corners, guess="After four sides and four corners, send zeros.")
+@square.check(3, after=passes_the_corners, guess="After four sides and four corners, publish zeros.")
 def closes_the_square(run: Recording) -> None:
     """After the third corner the robot ends where it started, within 15 cm."""
     try:
         passes(run, CORNERS, tolerance=NEAR)
     except Missed as missed:
-        raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
+        raise Missed("three corners, then the start", missed.saw,
+                     "Get the robot around the corners first.") from None
     arrives(run, START, tolerance=NEAR)
 
 

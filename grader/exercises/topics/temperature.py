@@ -35,6 +35,7 @@ def temperature_changes(run: Recording, sent: list[Message], _: list[float]) -> 
     values = [row.message.data for row in sent]
     same = sum(before == after for before, after in itertools.pairwise(values))
     if len(values) < 2 or same > len(values) / 2:
-        saw = f"only {values[0]:.4g} °C" if len(set(values)) == 1 else f"{same} times the same as before"
-        hint = "Ask for a new number in the timer's callback: random.uniform(20.0, 25.0) gives one."
+        repeated = f"{same} times the same value as before"
+        saw = f"only {values[0]:.4g} °C" if len(set(values)) == 1 else repeated
+        hint = "Draw a new number in the timer's callback, each time: random.uniform(20.0, 25.0)."
         raise Missed("a new temperature in each message", saw, hint)
