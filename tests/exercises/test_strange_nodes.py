@@ -129,9 +129,9 @@ def test_who_never_lets_the_robot_get_free_is_reported():
     score = first_run(sensing.guard).judge(LocalPrograms([TurnsToTheWall]), "an instructor's")
     assert earned(score) == 3.0
     assert [tuple(miss)[1:] for miss in misses(score)] == [(
-        "0.5 s or more in which all is well and 1 m are free ahead",
-        "0.0 s: the robot does not get there",
-        "The driver turns the robot away from walls, and drives on: its commands have to pass.",
+        "0.5 s or more in which all is well and 1 m ahead are clear",
+        "0.0 s: the robot never gets there",
+        "The driver turns the robot away from walls and drives on: its commands have to get through.",
     )]  # fmt: skip
 
 

@@ -65,12 +65,12 @@ def publishes_both(run: Recording) -> None:
 @compass.check(4, after=publishes_both, guess={
     "math.hypot takes the differences to the goal: math.hypot(goal x - x, goal y - y).":
         _all_are(lambda pose: math.hypot(*pose[:2]), 0.05),
-    "A distance along both axes, one after the other, is too long: use math.hypot.":
+    "The distance along x plus the distance along y is too long: use math.hypot.":
         _all_are(lambda pose: abs(GOAL[0] - pose.x) + abs(GOAL[1] - pose.y), 0.05),
-    "The square root is missing: math.hypot(dx, dy) does it all.":
+    "The square root is missing: math.hypot(dx, dy) includes it.":
         _all_are(lambda pose: _distance(pose) ** 2, 0.05),
-    "This is the bearing: first comes the distance, then the bearing.": _all_are(_bearing, 0.05),
-    "Print x, y and yaw in the callback, and work one out by hand.": lambda run, answers: True,
+    "This is the bearing: return the distance first, then the bearing.": _all_are(_bearing, 0.05),
+    "Print x, y and yaw in the callback, and work one case out by hand.": lambda run, answers: True,
 })
 def publishes_the_distance(run: Recording) -> None:
     """/goal/distance is the distance from the robot to (5, 5), in meters, within 5 cm."""
@@ -79,23 +79,23 @@ def publishes_the_distance(run: Recording) -> None:
 
 
 @compass.check(6, after=publishes_both, hints={
-    "It is right but for whole turns: math.remainder(angle, math.tau) brings it to -pi..pi.":
+    "It is off by whole turns: math.remainder(angle, math.tau) wraps it to -pi..pi.":
         lambda run, answers: _is_right_but_for_turns(answers)
 }, guess={
-    "This is the direction of the goal in the world; take the robot's yaw away.": _all_are(_direction, 0.1),
-    "The sign is wrong: the goal's direction minus the robot's yaw, so that left is positive.":
+    "This is the direction of the goal in the world; subtract the robot's yaw.": _all_are(_direction, 0.1),
+    "The sign is wrong: take the goal's direction minus the robot's yaw, so that left is positive.":
         _all_are(lambda pose: -_bearing(pose), 0.1),
     "The unit is rad, not degrees.": _all_are(lambda pose: math.degrees(_bearing(pose)), 0.1),
-    "This is the distance: first comes the distance, then the bearing.": _all_are(_distance, 0.1),
+    "This is the distance: return the distance first, then the bearing.": _all_are(_distance, 0.1),
     "It points away from the goal: dx and dy are the goal minus the robot.":
         _all_are(lambda pose: math.remainder(_bearing(pose) + math.pi, math.tau), 0.1),
-    "A whole turn is math.tau: math.remainder(angle, math.pi) takes half turns away, too.":
+    "A whole turn is math.tau: math.remainder(angle, math.pi) removes half turns, too.":
         _all_are(lambda pose: math.remainder(_bearing(pose), math.pi), 0.1),
     "math.atan2 takes dy first, then dx.":
         _all_are(lambda pose: math.remainder(math.pi / 2 - _direction(pose) - pose.yaw, math.tau), 0.1),
-    "orientation.z is not an angle: yaw = 2 * math.atan2(orientation.z, orientation.w).":
+    "orientation.z isn't an angle: yaw = 2 * math.atan2(orientation.z, orientation.w).":
         _all_are(lambda pose: math.remainder(_direction(pose) - math.sin(pose.yaw / 2), math.tau), 0.1),
-    "Print x, y and yaw in the callback, and work one out by hand.": lambda run, answers: True,
+    "Print x, y and yaw in the callback, and work one case out by hand.": lambda run, answers: True,
 })
 def publishes_the_bearing(run: Recording) -> None:
     """/goal/bearing is how far the robot must turn to face (5, 5): -pi to pi rad, positive to the left."""

@@ -28,15 +28,15 @@ costmap = Exercise(
 clicks = Stimuli("/clicked_point", answered_on="/cell_center", within=0.45)
 
 
-@costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.", hints={
-    "The map was published before the node was there. It comes later only to those who subscribe with the "
-    "profile LATCHED instead of a queue depth.": otherwise,
+@costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the QoS profile LATCHED.", hints={
+    "The map was published before your node was there. Late subscribers receive it only if they subscribe "
+    "with the QoS profile LATCHED instead of a queue depth.": otherwise,
 })
 def receives_the_map(run: Recording) -> Any:
-    """The node receives /map, although it was published before."""
+    """The node receives /map, although it was published earlier."""
     for end in subscribes(run, "/map", GRID):
         if end.qos["durability"] != "transient_local":
-            expected = "a subscription to /map with the durability transient_local"
+            expected = "a subscription to /map with durability transient_local"
             raise Missed(expected, f"one with {end.qos['durability']}", about=(end,))
     return run.messages("/map", "/map_server")[0].message
 
@@ -49,11 +49,11 @@ def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     if expected == saw:
         expected, saw = (f"{len(msg.data)} cells in data" for msg in (given, made))
     if expected != saw:
-        raise Missed(expected, saw, "Send the map's own header and info along: only the data changes.")
+        raise Missed(expected, saw, "Copy the map's header and info: only the data changes.")
     walls = cells_of(given) == 100
     kept = int((cells_of(made)[walls] == 100).sum())
     if kept < 0.9 * walls.sum():
-        hint = "Begin with a copy of the map's cells: what is occupied there stays 100."
+        hint = "Start from a copy of the map's cells: occupied cells stay 100."
         raise Missed(f"the {int(walls.sum())} cells that are 100 in the map", f"{kept} of them are", hint)
     return given, made
 
@@ -87,20 +87,20 @@ def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
 
 
 @costmap.check(5, after=receives_the_map, hints={
-    "The map begins at info.origin, not at (0, 0): take the origin away before you divide.":
+    "The map begins at info.origin, not at (0, 0): subtract the origin before you divide.":
         _all_are(_without_origin),
-    "Add the map's origin again in to_point.": _all_are(_origin_half_way),
-    "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.":
+    "Add the map's origin back in to_point.": _all_are(_origin_half_way),
+    "This is the cell's corner. Its center is half a cell farther: (column + 0.5) * resolution.":
         _all_are(lambda info, point: _center(info, point, offset=0.0)),
-    "round() takes the nearest cell, which may be the next one: use math.floor().":
+    "round() may give the next cell: use math.floor().":
         _all_are(lambda info, point: _center(info, point, round)),
     "A column and a row are whole numbers: math.floor() rounds down.":
         _all_are(lambda info, point: _center(info, point, lambda value: value)),
-    "x belongs to the column and y to the row; here they are swapped.":
+    "x gives the column and y the row; here they are swapped.":
         _all_are(lambda info, point: _center(info, point)[::-1]),
-}, guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down.")
+}, guess="Work one case out by hand: the cell is (x - origin) / resolution, rounded down.")
 def answers_clicks(run: Recording, given: Any) -> None:
-    """Each /clicked_point is answered on /cell_center with the middle of its cell."""
+    """Each /clicked_point is answered on /cell_center with the center of its cell."""
     publishes(run, "/cell_center", "geometry_msgs/msg/PointStamped")
     sent = clicks(run)
     known = min((row.stamp for row in run.received("/map")), default=0.0)  # earlier ones can have no answer
@@ -144,19 +144,19 @@ class Inflation(NamedTuple):
 
 
 @costmap.check(8, after=publishes_a_costmap, guess={
-    "The costmap is the map as it was: set cells of the copy, `inflated`, to 100, up to `reach` cells "
+    "The costmap is the unchanged map: in the copy, `inflated`, set cells to 100 up to `reach` cells "
     f"away, which is {RADIUS} m / resolution.": lambda run, it: np.array_equal(it.given, it.made),
-    "Some cells became another number than 100: that is what stands for occupied.":
+    "Some cells became a number other than 100: occupied is exactly 100.":
         lambda run, it: ((it.made != it.given) & (it.made != 100)).any(),
-    "Corners are too thick: skip cells that are farther than `reach`, by math.hypot(right, up).":
+    "Corners are too thick: skip cells that are farther away than `reach`, by math.hypot(right, up).":
         lambda run, it: not it.missing.any() and it.far[it.extra].max(initial=0.0) <= RADIUS * 1.5,
-    "Nearly all is occupied: look for occupied cells in the old map, and write into the copy.":
+    "Nearly everything is occupied: look for occupied cells in the old map, and write into the copy.":
         lambda run, it: not it.missing.any() and (it.made[it.given != -1] == 100).mean() > 0.9,
-    f"That is too far: it should reach {RADIUS} m, in cells {RADIUS} / resolution.":
+    f"That is too far: it should reach {RADIUS} m, which is {RADIUS} / resolution in cells.":
         lambda run, it: it.reaches_too_far,
     f"It should reach {RADIUS} m in all directions; in cells that is {RADIUS} / resolution.":
         lambda run, it: it.missing.any() and not it.extra.any(),
-    "Is it cells[row, column]: first the row (y), then the column (x)?": lambda run, it: True,
+    "Did you write cells[row, column]: first the row (y), then the column (x)?": lambda run, it: True,
 })
 def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
     """In the costmap every cell within 0.2 m of an occupied one is 100, and no other cell has changed."""
@@ -174,7 +174,7 @@ def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
         saw = ", ".join(f"{count} {words}" for words, count in counts.items())
         credit = tenths(0.8 * (1 - sum(counts.values()) / sure.sum()))
         it = Inflation(given, made, missing, extra, far)
-        raise Missed(f"{int(due.sum())} cells more that are 100", saw, credit=credit, about=(it,))
+        raise Missed(f"{int(due.sum())} more cells that are 100", saw, credit=credit, about=(it,))
 
 
 def _form(msg: Any) -> str:

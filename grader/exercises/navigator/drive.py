@@ -37,19 +37,19 @@ def sends_velocities(run: Recording) -> None:
 @drive.check(7, after=sends_velocities, guess={
     "The robot never turned: angular.z follows the bearing, such as 2.0 * bearing.":
         lambda run: any(_speeds(run)) and not _turns(run),
-    "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?":
+    "All commands are zeros; they should be zero only when the goal is closer than 0.1 m: is it > or <?":
         lambda run: not any(_speeds(run)) and not _turns(run),
     "The robot was never commanded to drive ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
-    "It was commanded backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
-    "The commands stopped too early. Send one with each /odom, until the robot is there.":
+    "It was commanded backwards: a positive linear.x drives forward.": lambda run: max(_speeds(run)) <= 0,
+    "The commands stopped too early. Publish one for each /odom message, until the robot is there.":
         lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1,
-    "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.":
+    "It keeps turning. A positive bearing is to the left, and so is a positive angular.z.":
         lambda run: traveled(run) < 0.5,
     "It was commanded to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.":
         lambda run: _speeds(run)[-1] == 0.0 and run.path[-1]._asdict(),
-    "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.":
+    "It drives past the goal. Turn faster for the same bearing, and go slowly while the bearing is large.":
         lambda run: traveled(run) > _straight(run),
-    "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.":
+    "It drove {way:.2f} m in {time:.0f} s: 0.3 m/s or more is a good speed.":
         lambda run: {"way": traveled(run), "time": run.ended.stamp},
 })
 def gets_there(run: Recording) -> None:
@@ -58,18 +58,18 @@ def gets_there(run: Recording) -> None:
     if left > NEAR:
         come = 1 - math.dist(GOAL, run.path[-1][1:3]) / _straight(run)
         credit = tenths(0.8 * come) if come >= 0.75 else 0.0  # less may be by chance
-        saw = f"{left:.2f} m away at the nearest, at {stamp:.3g} s"
+        saw = f"{left:.2f} m away at its closest, at {stamp:.3g} s"
         raise Missed("the robot within 0.2 m of (5, 5) m", saw, credit=credit, picture="path")
 
 
 @drive.check(4, after=gets_there, guess={
-    "First get there.": lambda run: closest(run.path, GOAL)[0] > NEAR,
-    "It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower.":
+    "Get the robot to the goal first.": lambda run: closest(run.path, GOAL)[0] > NEAR,
+    "It passes the goal {left:.2f} m to the side: turn faster for the same bearing, or drive more slowly.":
         lambda run: (left := closest(run.path, GOAL)[0]) > STOP and {"left": left},
-    "Nearer than 0.1 m is near enough: then send a Twist() with zeros.": lambda run: True,
+    "Closer than 0.1 m is close enough: then publish a Twist() of zeros.": lambda run: True,
 })
 def stays_there(run: Recording) -> None:
-    """In the end the robot stands still, within 20 cm of (5, 5)."""
+    """At the end the robot stands still, within 20 cm of (5, 5)."""
     arrives(run, GOAL, tolerance=NEAR)
     stands_still(run)
     ends_with_a_stop(run)
@@ -80,8 +80,9 @@ def goes_straight(run: Recording) -> None:
     """The path to the goal is no more than 15 % longer than the straight line."""
     reached = next((pose.stamp for pose in run.path if math.dist(GOAL, pose[1:3]) <= NEAR), None)
     if reached is None:
-        raise Missed("a way to (5, 5)", "the robot did not get there", "First get there.", picture="path")
+        raise Missed("a path to (5, 5)", "the robot did not get there", "Get the robot to the goal first.",
+                     picture="path")
     way, most = length(Window(0.0, reached).rows(run.path)), 1.15 * _straight(run)
     if way > most:
         hint = "Turn towards the goal first; while the bearing is large, drive slowly or not at all."
-        raise Missed(f"a way of {most:.2f} m or less", f"{way:.2f} m", hint, picture="path")
+        raise Missed(f"a path of {most:.2f} m or less", f"{way:.2f} m", hint, picture="path")

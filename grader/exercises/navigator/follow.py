@@ -20,9 +20,9 @@ NEAR = 0.15  # meters from the path's end
 # curvature it swings out of a maze's corners by 13 cm or more.
 OFF = 0.12
 LOST = 0.4  # meters from the path: what the robot passes farther away is not covered
-CORNERS = ("Where it cuts a corner, look less far ahead. Where it swings out of one, it turns too little: "
-           "curvature = 2 * sin(bearing) / distance, and on the spot while the bearing is above 1 rad, to "
-           "both sides.")
+CORNERS = ("If it cuts a corner, look less far ahead. If it swings wide, it turns too little: curvature = "
+           "2 * sin(bearing) / distance, and turn on the spot while the bearing is above 1 rad to either "
+           "side.")
 FASTEST = 1.0  # m/s that a student may want
 AHEAD = 0.3  # meters: how far ahead of the robot the assignment steers for
 NEXT = 1.0  # meters of the path in which its next point is looked for
@@ -69,22 +69,22 @@ def sends_commands(run: Recording) -> None:
         lambda run: not any(_speeds(run)) and any(_turns(run)),
     "The robot was never commanded to drive ahead: linear.x is the speed, such as 0.4 m/s.":
         lambda run: not any(_speeds(run)),
-    "The robot was never commanded to turn: angular.z is speed times curvature.":
+    "The robot was never commanded to turn: set angular.z to speed times curvature.":
         lambda run: not any(_turns(run)) and _is_slow(run),
     "It hardly turns: the curvature is 2 * sin(bearing) / distance, with the bearing in rad.":
         lambda run: max(map(abs, _turns(run))) < 0.05 and _is_slow(run),
-    "The speed changes all the time, and the turn doesn't: first comes the speed, then the turn.":
+    "The speed changes all the time, and the turn doesn't: return the speed first, then the turn.":
         lambda run: len(set(_turns(run))) <= 4 and len(set(_speeds(run))) > 16,
-    "A speed of {speed:.3g} m/s: first comes the speed, then the turn; on the spot it is 0.":
+    "The speed is {speed:.3g} m/s: return the speed first, then the turn; on the spot the speed is 0.":
         lambda run: not _is_slow(run) and {"speed": max(_speeds(run))},
-    "It steers as if /odom, or the transform from odom to base_link, said where the robot is in the map. "
-    "That is where it is since its start: put the transform from map to odom before it.":
+    "It steers as if /odom, or the transform from odom to base_link, were the robot's pose in the map. "
+    "That pose is relative to where it started: apply the transform from map to odom as well.":
         lambda run: _trusts_odometry_alone(run),
     "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}":
         lambda run: run.contacts and run.contacts[0]._asdict() | {"corners": CORNERS},
-    "It was commanded to stop before the end: 0.1 m from the last point is near enough.":
+    "It was commanded to stop before the end: stop only within 0.1 m of the last point.":
         lambda run: _speeds(run)[-1] == 0.0 and not _turns(run)[-1],
-    "Draw the point ahead: it has to lie on the path, a little farther on than the robot.": lambda run: True,
+    "Plot the lookahead point: it has to be on the path, a little ahead of the robot.": lambda run: True,
 })
 def drives_along(run: Recording) -> None:
     """The robot drives along the path to its end."""
@@ -98,7 +98,7 @@ def drives_along(run: Recording) -> None:
 
 @follow.check(4, after=drives_along)
 def keeps_near(run: Recording) -> None:
-    """On its way the robot stays within 12 cm of the path, and touches nothing."""
+    """On the way the robot stays within 12 cm of the path, and touches nothing."""
     has_no_contacts(run, CORNERS)
     off = distances_to_line(np.array([pose[1:3] for pose in run.path]), _line(run))
     worst = int(np.argmax(off))
@@ -114,7 +114,7 @@ def stops_at_its_end(run: Recording) -> None:
     """At the end of the path the robot stands still, within 15 cm of it."""
     left = math.dist(_line(run)[-1], run.path[-1][1:3])
     if left > NEAR:
-        guess = "When the robot is nearer than 0.1 m to the last point, send a Twist() with zeros."
+        guess = "When the robot is within 0.1 m of the last point, publish a Twist() of zeros."
         expected = f"the robot within {NEAR} m of the path's end"
         raise Missed(expected, f"{left:.2f} m away", guess=guess, picture="path")
     stands_still(run)

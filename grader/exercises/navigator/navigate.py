@@ -22,7 +22,8 @@ SLOW = 0.15  # m/s; on the shortest way, so that there is time for turns and det
 FEEDBACK = 2.0  # seconds between two messages at most
 THREADS = "spin the node with a MultiThreadedExecutor"
 CANCEL_AFTER = 5.0  # seconds
-TURNED = "This lidar sits turned: its rays begin where scan.header.frame_id is in the map, at header.stamp."
+TURNED = ("This lidar is mounted turned: its rays start from the pose of scan.header.frame_id in the map, at "
+          "header.stamp.")
 
 
 def _done(goals: int) -> Any:
@@ -64,10 +65,11 @@ def _other_action(run: Recording) -> Any:
 
 
 @navigate.check(2, hints={
-    "Yours is {other}, and clients look for {action}: the third argument of ActionServer.": _other_action
+    "Yours is {other}, but clients look for {action}: change the third argument of "
+    "ActionServer.": _other_action
 }, guess="In __init__: ActionServer(self, NavigateToPose, 'navigate_to_pose', ...).")
 def serves(run: Recording) -> None:
-    """The node serves the action /navigate_to_pose of the type NavigateToPose."""
+    """The node offers the action /navigate_to_pose of type NavigateToPose."""
     serves_action(run, ACTION, TYPE)
 
 
@@ -86,22 +88,22 @@ def _stands(run: Recording) -> bool:
 ARRIVES: dict[str, Callable[..., Any]] = {
     "The goal was rejected. Without a goal_callback every goal is accepted.":
         lambda run, goal, left: goal.status == "rejected",
-    "It is said to have succeeded before the robot has moved: go on as long as the goal is far.":
+    "The goal is reported as succeeded before the robot has moved: keep looping until the robot is there.":
         lambda run, goal, left: _succeeded(goal, left) and _stands(run),
-    "That is too early: go on until the robot is nearer than 0.1 m.":
+    "That is too early: keep looping until the robot is within 0.1 m.":
         lambda run, goal, left: _succeeded(goal, left) and left < 1.0,
-    "It is said to have succeeded, but the robot is not there. The goal is in the frame map: compare it with "
-    "the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
-    "No plan was published. In the loop: where there is no path yet, or it is blocked, self.plan(goal). And "
+    "The goal is reported as succeeded, but the robot isn't there. The goal is in the frame map: compare it "
+    "with the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
+    "No plan was published. In the loop, when there is no path yet or it is blocked: self.plan(goal). And "
     f"while a goal is executed the node has to receive /tf and /map: {THREADS}.":
         lambda run, goal, left: not _plans(run),
-    "All plans are empty. Is the start where the robot is in the map, and are both cells free?":
+    "All plans are empty. Is the start the robot's position in the map, and are both cells free?":
         lambda run, goal, left: not any(plan.poses for plan in _plans(run)),
-    f"It plans again and again. Does it mark the box, and no more? {TURNED}":
+    f"It plans again and again. Does it mark the box, and nothing else? {TURNED}":
         lambda run, goal, left: run.world.lidar.yaw and len(_plans(run)) > 3,
     f"It only turns on the spot. If self.pose stays the same, no thread is free to receive /tf: {THREADS}.":
         lambda run, goal, left: _stands(run) and any(series(run, "/cmd_vel", "angular.z")),
-    "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop.":
+    "There is a plan, but the robot doesn't drive: publish a Twist on every pass through the loop.":
         lambda run, goal, left: _stands(run),
     "{touch}": lambda run, goal, left: run.contacts and {"touch": after_a_touch(run)},
     "The picture shows where it stopped. Compare it with the last message on /plan.":
@@ -118,9 +120,9 @@ def reaches_the_goal(run: Recording) -> None:
 @navigate.check(4, after=serves, only="blocked", hints=ARRIVES)
 def goes_round(run: Recording) -> None:
     """The robot also gets to the goal when a box that is on no map blocks its path; it touches nothing."""
-    hint = "The map doesn't know the box, but the lidar sees it: plan anew when the path is blocked."
+    hint = "The box isn't on the map, but the lidar sees it: plan again when the path is blocked."
     if len(run.messages("/plan")) > 1:
-        hint = f"It planned anew. Is the box inflated, and marked where it is? {TURNED}"
+        hint = f"It planned again. Is the box inflated, and marked in the right place? {TURNED}"
     has_no_contacts(run, hint, "no contact")
     _succeeds(run)
 
@@ -134,7 +136,7 @@ def touches_nothing(run: Recording) -> None:
 
 @navigate.check(3, after=(serves, reaches_the_goal))
 def does_not_dawdle(run: Recording) -> None:
-    """The path is at most 35 % longer than the shortest one, and the robot covers 15 cm of it in a second."""
+    """The path is at most 35 % longer than the shortest one, and the robot covers 15 cm of it per second."""
     goal = goals_from_course(run)[-1]
     begin, end = goal.at("accepted") or 0.0, end_of(run, goal)
     least = max(to_go(run.world, run.pose_at(begin)), 0.5)
@@ -142,7 +144,7 @@ def does_not_dawdle(run: Recording) -> None:
     if way > RIGHT * least:
         credit = tenths(0.8 * (1 - (way / least - RIGHT) / (POOR - RIGHT)))
         hint = "The picture shows the detour. Does each new plan begin where the robot is now?"
-        expected = f"a way of {RIGHT * least:.1f} m or less"
+        expected = f"a path of {RIGHT * least:.1f} m or less"
         raise Missed(expected, f"{way:.1f} m", hint, credit=credit, picture="path")
     most = 5.0 + least / SLOW
     if goal.over and end - begin > most:
@@ -152,7 +154,7 @@ def does_not_dawdle(run: Recording) -> None:
 
 @navigate.check(3, after=(serves, reaches_the_goal))
 def reports_the_distance_left(run: Recording) -> None:
-    """At least every 2 s the feedback has the robot's pose, the distance left and the time needed."""
+    """At least every 2 s there is feedback with the robot's pose, the distance left and the time taken."""
     goal = goals_from_course(run)[-1]
     moments = [goal.at("executing") or 0.0, *stamps(goal.feedback), end_of(run, goal)]
     pause = max(after - before for before, after in itertools.pairwise(moments))
@@ -171,13 +173,13 @@ def obeys_a_cancel(run: Recording) -> None:
     first, last = goals_from_course(run)[0], goals_from_course(run)[-1]
     if first.at(CANCEL_REQUESTED) is None:
         saw = f"a goal that is {last.status or 'not answered'}"
-        hint = "First the goal has to be accepted, and be executed for a while."
-        raise Missed("a goal under way, to be canceled", saw, hint)
+        hint = "First the goal has to be accepted and executed for a while."
+        raise Missed("a goal in progress that can be canceled", saw, hint)
     ended = _canceled(run, first)
     later = Window(ended + 0.5, ended + 1.5).rows(run.path)
     moved = math.dist(later[0][1:3], later[-1][1:3]) if later else 0.0
     if moved > 0.02:
-        hint = "Send zeros before you return the result."
+        hint = "Publish zeros before you return the result."
         saw = f"it drove on for {moved:.2f} m"
         raise Missed("the robot standing still after the cancel", saw, hint, unsafe=True)
 
@@ -187,7 +189,7 @@ def _canceled(run: Recording, goal: Goal) -> Seconds:
     requested = goal.at(CANCEL_REQUESTED)
     expected = f"the goal canceled within 1 s of the request at {requested:.3g} s"
     if goal.ended is not None and goal.ended < requested:
-        hint = "The goal was over before the client changed its mind: end it when the robot is there."
+        hint = "The goal ended before the client changed its mind: end it only when the robot is there."
         raise Missed(expected, f"{goal.status} at {goal.ended:.3g} s already", hint)
     try:
         return cancels(run, ACTION, within=1.0, where=lambda other: other.id == goal.id)[0].ended
@@ -208,7 +210,7 @@ def _succeeds(run: Recording) -> None:
         raise Missed(expected, saw, credit=tenths(0.6 * came), picture="path", about=(goal, left))
     if goal.status != "succeeded":
         moment = "the end" if goal.ended is None else f"{goal.ended:.3g} s"
-        saw = f"{state} at {moment}, though the robot is there"
+        saw = f"{state} at {moment}, although the robot is there"
         guess = "Call goal_handle.succeed() when the robot has arrived."
         raise Missed("the goal succeeded", saw, guess=guess, credit=0.6)
     if goal.received is None:

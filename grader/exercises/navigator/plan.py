@@ -41,22 +41,23 @@ def answers_a_goal(run: Recording) -> list[Point]:
         publishes(run, "/plan", "nav_msgs/msg/Path")
     stamp, path = _answer(run, 0)
     if path is None or not path.poses:
-        guess = "find_path found no way: does it put cells into the queue, and remember where they came from?"
+        guess = ("find_path found no path: does it put cells into the queue, and record which cell each came "
+                 "from?")
         saw = "no path" if path is None else "a path without poses"
         raise Missed(f"a path to the goal that was sent at {stamp:.3g} s", saw, guess=guess)
     if path.header.frame_id != "map":
-        hint = 'Without a frame no one knows where the points are: path.header.frame_id = "map".'
+        hint = 'Without a frame the points could be anywhere: path.header.frame_id = "map".'
         raise Missed("the frame “map” in the path's header", f"“{path.header.frame_id}”", hint)
     return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
 
 
 @plan.check(4, after=answers_a_goal, hints={
-    "The way back from the goal to the start has to be turned round: way[::-1].":
+    "The path was traced from the goal back to the start: reverse it, way[::-1].":
         lambda run, points: math.dist(points[0], run.world.goal) < GAP
         and math.dist(points[-1], run.world.start[:2]) < GAP,
     "x and y are swapped: a cell is (column, row).":
         lambda run, points: math.dist(points[-1], run.world.goal[::-1]) < GAP,
-    "The way back begins at the goal and ends at the cell that came from nowhere (None).": otherwise,
+    "Trace the path back from the goal to the cell that came from nowhere (None).": otherwise,
 })
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""
@@ -70,7 +71,7 @@ def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     if gap > GAP:
         expected = f"points {GAP} m apart or less"
         saw = f"{gap:.2f} m after ({near[0]:.2f}, {near[1]:.2f}) m"
-        hint = "Every cell of the way belongs in the path."
+        hint = "Put every cell on the way into the path."
         raise Missed(expected, saw, hint, credit=0.5 if math.isfinite(gap) else 0.0, measured=points)
     return points
 
@@ -82,7 +83,7 @@ def keeps_to_free_cells(run: Recording, points: list[Point]) -> list[Point]:
     wrong = [point for point in points if cells[floor.cell(point)[::-1]] != 0]
     if wrong:
         x, y = wrong[0]
-        hint = "Only cells below 100 may be entered; and it is cells[row][column], so cells[y][x]."
+        hint = "Enter only cells below 100; and the order is cells[row][column], so cells[y][x]."
         saw = f"({x:.2f}, {y:.2f}) m, which is occupied; {len(wrong)} of {len(points)} points are"
         raise Missed("all points on free cells", saw, hint)
     return points
@@ -96,8 +97,8 @@ def is_short(run: Recording, points: list[Point]) -> None:
     shortest = float(floor.lengths(_costmap(run) == 0, world.goal)[row, column])
     way = math.fsum(gap for gap, _ in _gaps(points))
     if way > RIGHT * shortest:
-        hint = ("A cell may be found again on a shorter way: then note the new cost, and where it came "
-                "from. Diagonal steps are sqrt(2) long.")
+        hint = ("A cell may be reached again by a shorter path: then store the new cost, and the cell "
+                "it came from. Diagonal steps are sqrt(2) long.")
         credit = tenths(0.8 * (1 - (way / shortest - RIGHT) / (POOR - RIGHT)))
         raise Missed(f"a path of {RIGHT * shortest:.2f} m or less", f"{way:.2f} m", hint, credit=credit)
 
@@ -108,7 +109,7 @@ def admits_that_there_is_no_way(run: Recording) -> None:
     _, path = _answer(run, 1)
     if path is None or path.poses:
         saw = "no path" if path is None else f"a path of {len(path.poses)} poses"
-        guess = "Once the queue is empty there is no way: return [], and publish that."
+        guess = "Once the queue is empty there is no path: return [], and publish a Path without poses."
         raise Missed("a path without poses, for the goal inside a wall", saw, guess=guess)
 
 

@@ -52,9 +52,8 @@ guard = Exercise("guard", "A guard for the robot", scenarios=[
 ])
 
 
-@guard.check(
-    3, guess="The driver talks on /cmd_vel_raw, the lidar on /lidar, and the robot listens to /cmd_vel."
-)
+@guard.check(3, guess="The driver publishes on /cmd_vel_raw, the lidar on /lidar, and the robot subscribes "
+             "to /cmd_vel.")
 def stands_between(run: Recording) -> None:
     """The node subscribes to /cmd_vel_raw and /lidar, and publishes Twist messages on /cmd_vel."""
     subscribes(run, RAW, TWIST)
@@ -63,31 +62,32 @@ def stands_between(run: Recording) -> None:
 
 
 @guard.check(4, after=stands_between, hints={
-    "There was a fault before, but now all is well again: then the commands should pass again.":
+    "There was a fault earlier, but all is well again: now the commands should pass again.":
         lambda run, moment: any(fault.end < moment.stamp
                                 for fault in (*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run))),
     "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.":
         lambda run, moment: moment.sent is None,
-    "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
-    "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side.":
+    "It sends zeros although all is well. Print what is_well() returns: it needs a `return`, and ages "
+    "are in seconds. If it returns True, something beside the robot may be stopping it: check only 30 "
+    "degrees to each side.":
         lambda run, moment: moment.sent == (0.0, 0.0),
-    "Copy the driver's linear.x and angular.z as they are.": otherwise,
+    "Copy the driver's linear.x and angular.z unchanged.": otherwise,
 })
 def lets_through(run: Recording) -> list[Moment]:
-    """Harmless commands pass: while all is well and 1 m ahead is free, the robot obeys the driver."""
+    """Harmless commands pass: while all is well and 1 m ahead is clear, the robot obeys the driver."""
     moments = list(_moments(run))
     fine = [moment for moment in moments if moment.requested and moment.ahead > FREE]
     wrong = [moment for moment in fine if not (moment.sent and same(moment.sent, moment.requested, 0.05))]
     steps = len({int(moment.stamp / STEP) for moment in fine})
     if steps < ENOUGH:
-        expected = f"{ENOUGH * STEP:g} s or more in which all is well and {FREE:g} m are free ahead"
-        hint = "The driver turns the robot away from walls, and drives on: its commands have to pass."
-        saw = f"{steps * STEP:.1f} s: the robot does not get there"
+        expected = f"{ENOUGH * STEP:g} s or more in which all is well and {FREE:g} m ahead are clear"
+        hint = "The driver turns the robot away from walls and drives on: its commands have to get through."
+        saw = f"{steps * STEP:.1f} s: the robot never gets there"
         raise Missed(expected, saw, hint, picture="path")
     if len(wrong) > 0.05 * len(fine):
         first = wrong[0]
-        expected = (f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver asks: "
-                    f"{first.ahead:.2f} m are free ahead")
+        expected = (f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver commands: "
+                    f"{first.ahead:.2f} m ahead are clear")
         raise Missed(expected, _text(first.sent), picture="topics", about=(first,))
     lasts(run, OUT)
     return moments
@@ -96,8 +96,8 @@ def lets_through(run: Recording) -> list[Moment]:
 @guard.check(5, after=lets_through)
 def keeps_from_hitting(run: Recording) -> None:
     """The robot touches nothing, wherever the driver steers it."""
-    hint = ("When something is nearer than 0.5 m within 30 degrees of straight ahead, linear.x becomes 0. "
-            "These rays lie at both ends of msg.ranges. Fewer are not enough: the robot is 20 cm wide.")
+    hint = ("When something is closer than 0.5 m within 30 degrees of straight ahead, set linear.x to 0. "
+            "Those rays are at the two ends of msg.ranges. Fewer aren't enough: the robot is 20 cm wide.")
     keeps_clear(run, hint)
 
 
@@ -107,31 +107,31 @@ def lets_turn(run: Recording, moments: list[Moment]) -> None:
     for moment in moments:
         turn = moment.requested[1] if moment.requested and moment.ahead < BLOCKED else 0.0
         if turn and not (moment.sent and same(moment.sent[1], turn, 0.05)):
-            expected = f"a turn of {turn:g} rad/s at {moment.stamp:.3g} s, as the driver asks"
-            hint = "Set linear.x to 0, and leave angular.z as it is: a turn on the spot hits nothing."
+            expected = f"a turn of {turn:g} rad/s at {moment.stamp:.3g} s, as the driver commands"
+            hint = "Set linear.x to 0, and leave angular.z alone: turning on the spot hits nothing."
             raise Missed(expected, _text(moment.sent), hint)
 
 
 @guard.check(3, after=lets_through)
 def stops_without_driver(run: Recording) -> None:
     """When the driver falls silent, the robot stops within 1 s."""
-    hint = ("Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
-            "zeros go out. Otherwise the timer repeats the last command forever.")
+    hint = ("Store when the last command arrived, and check its age in the timer: if it is older than 0.3 "
+            "s, publish zeros. Otherwise the timer repeats the last command forever.")
     _stands(run, _pauses(run, RAW), "the driver's last command", hint)
 
 
 @guard.check(3, after=lets_through)
 def stops_without_scans(run: Recording) -> None:
-    """When no scan comes any more, the robot stops within 1 s."""
-    hint = ("No news is bad news. Remember when the last scan came, and look at its age in the timer, not "
-            "in the scan's callback: that one isn't called any more.")
+    """When the scans stop coming, the robot stops within 1 s."""
+    hint = ("No news is bad news. Store when the last scan arrived, and check its age in the timer, not in "
+            "the scan's callback, which isn't called any more.")
     _stands(run, _pauses(run, LIDAR), "the last scan", hint)
 
 
 @guard.check(2, after=(lets_through, stops_without_scans))
 def stops_with_late_scans(run: Recording) -> None:
-    """When the scans come 1 s late, the robot stops within 1 s."""
-    hint = ("Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
+    """When the scans arrive 1 s late, the robot stops within 1 s."""
+    hint = ("Scans do arrive, 20 a second, but they are old. The age is not the time since the scan arrived "
             "but the time since it was measured: now minus msg.header.stamp.")
     _stands(run, _delays(run), "the last scan that came in time", hint)
 
@@ -142,7 +142,7 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str) -> None
         path = Window(begin + SETTLING, end).rows(run.path)
         fastest = max(speeds_along(path), key=lambda speed: (speed.linear, speed.stamp), default=None)
         if fastest and fastest.linear > STANDING:
-            expected = f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)"
+            expected = f"the robot standing still, {SETTLING:g} s after {what} (at {begin:.3g} s)"
             saw = f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s"
             raise Missed(expected, saw, hint, picture="topics", unsafe=True)
 

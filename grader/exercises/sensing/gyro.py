@@ -31,8 +31,8 @@ def sums_up(run: Recording) -> Headings:
     pause = max(after.stamp - before.stamp for before, after in itertools.pairwise(sent))
     if pause > 1.0 or sent[0].stamp > LEAVING or sent[-1].stamp < run.ended.stamp - 1.0:
         saw = f"messages from {sent[0].stamp:.3g} s to {sent[-1].stamp:.3g} s, with a pause of {pause:.3g} s"
-        hint = "Publish in every callback. Before the bias is known, the heading is 0.0."
-        raise Missed("a heading all the time, from 3 s on at the latest", saw, hint)
+        hint = "Publish in every callback. Until the bias is known, the heading is 0.0."
+        raise Missed("a heading all the time, starting by 3 s at the latest", saw, hint)
     return series(run, HEADING, "data")
 
 
@@ -65,36 +65,36 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
 
 
 @gyro.check(4, after=sums_up, hints={
-    "It stays 0 all the time: collect the first 200 rates, and add up from then on.":
+    "It stays 0 all the time: collect the first 200 rates, and integrate the ones after them.":
         lambda run, headings: _largest(headings) == 0.0,
-    "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01.":
+    "It stays near 0 all the time: add a step for each message, self.yaw += (rate - bias) * 0.01.":
         lambda run, headings: _largest(headings) < 2.0,
-    "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up.":
+    "It is near 0 whenever the robot stands still: that is how fast it turns, not how far. Add up the steps.":
         lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0,
-    "{value} is not a heading: something was divided by zero, or a sum began with no number.":
+    "{value} is not a heading: did you divide by zero, or start a sum from something that isn't a number?":
         lambda run, headings: (bad := [value for _, value in headings if not math.isfinite(value)])
         and {"value": bad[0]},
     "The sign is wrong: a positive angular_velocity.z is a turn to the left, and so is the heading.":
         lambda run, headings: -1.2 < _ratio(run, headings) < -0.8,
-    "That is the angle in radians: math.degrees(...) turns it into degrees.":
+    "That is the angle in radians: math.degrees(...) converts it to degrees.":
         lambda run, headings: 0.01 < _ratio(run, headings) < 0.025,
-    "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
-    "comes only once, where it is published.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
-    "That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the time "
-    "since the last one, 0.01 s: add rate * 0.01.":
+    "That is about 57 times too far, which is 180 / pi: keep self.yaw in radians, and call math.degrees(...) "
+    "only once, when you publish.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
+    "That is about {ratio:.0f} times too far. Each reading is a rate, in rad/s, and lasts for 0.01 s, "
+    "the time since the previous one: add rate * 0.01.":
         lambda run, headings: (ratio := _ratio(run, headings)) > 2.5 and {"ratio": ratio},
-    "The heading begins at {begin:.3g} s, and the robot sets off at {leaving:g} s: the mean of the rates "
-    "until then has its turn in it, too. Take the mean over the first 2 s only.": _begins_late,
-    "The heading comes to rest on a multiple of {step:.2g} degrees, or 0.01 rad: is the sum rounded at "
-    "each step? Then small steps are lost. Round only what you print.":
+    "The heading begins at {begin:.3g} s, but the robot sets off at {leaving:g} s: your mean of the rates "
+    "includes part of its turn. Take the mean over the first 2 s only.": _begins_late,
+    "The heading settles on a multiple of {step:.2g} degrees, or 0.01 rad: do you round the sum at each "
+    "step? That loses small steps. Round only what you print.":
         lambda run, headings: all(
             abs(math.remainder(value, ROUNDED)) < 0.02 for _, value in _at_rest(headings)
         ) and {"step": ROUNDED},
-    "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, and counts for the "
-    "0.01 s since the last message, not for a whole second: (rate - bias) * 0.01.": _drifts_by_the_bias,
+    "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, so multiply it by "
+    "the time step as well: (rate - bias) * 0.01.": _drifts_by_the_bias,
     "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
-    "angular_velocity.z over the first 2 s, when the robot stands, and subtract it from every reading "
-    "after.": otherwise,
+    "angular_velocity.z over the first 2 s, while the robot stands still, and subtract it from every later "
+    "reading.": otherwise,
 })
 def ends_right(run: Recording, headings: Headings) -> Headings:
     """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
@@ -124,18 +124,20 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
     (first, before), (last, after) = resting[0], resting[-1]
     drift = turn_between(after, before)
     if abs(drift) >= 1.0:
-        expected = f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot stands"
+        expected = (f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot "
+                    "stands still")
         saw = f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second"
-        hint = "It comes to the right heading too late: publish the sum as it is, without smoothing."
+        hint = "It reaches the right heading too late: publish the sum itself, without smoothing."
         raise Missed(expected, saw, hint, picture="topics")
 
 
 @gyro.check(3, after=ends_right)
 def is_right_all_the_time(run: Recording, headings: Headings) -> None:
-    """It is right on the way, too, within 5 degrees."""
+    """It is also right along the way, within 5 degrees."""
     for stamp, value in headings:
         if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= 5.0:
-            hint = "A heading is the sum of rate times time step, with each reading as it comes."
+            hint = ("A heading is the sum of rate times time step: add one step for each reading, as it "
+                    "arrives.")
             raise Missed(f"{_turned(run, stamp):.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees", hint)
 
 

@@ -45,14 +45,14 @@ def _yaws(run: Recording, stamp: Seconds) -> list[float]:
 
 
 @heading.check(4, after=publishes_a_heading, hints={
-    "That is the angle in radians: math.degrees(...) turns it into degrees.": _all_are(lambda yaw: yaw),
-    "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).":
+    "That is the angle in radians: math.degrees(...) converts it to degrees.": _all_are(lambda yaw: yaw),
+    "That is orientation.z. The numbers in a quaternion aren't angles: yaw = 2 * atan2(z, w).":
         _all_are(lambda yaw: math.sin(yaw / 2)),
     "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).":
         _all_are(lambda yaw: math.degrees(math.sin(yaw / 2))),
-    "That is half of it: a quaternion holds half the angle. yaw = 2 * atan2(z, w).":
+    "That is half of it: a quaternion contains half the angle. yaw = 2 * atan2(z, w).":
         _all_are(lambda yaw: math.degrees(yaw / 2)),
-    "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).":
+    "The sign is wrong: left is positive. acos(w) loses the sign; use atan2(z, w).":
         _all_are(lambda yaw: math.degrees(-yaw)),
     "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
     "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": otherwise,
@@ -70,7 +70,7 @@ def heading_is_right(run: Recording, headings: Headings) -> Headings:
 
 @heading.check(2, after=heading_is_right)
 def heading_is_in_range(run: Recording, headings: Headings) -> None:
-    """It is always from -180 to 180 degrees."""
+    """It is always between -180 and 180 degrees."""
     for stamp, value in headings:
         if not abs(value) <= 180.0 + 1e-6:
             hint = "math.atan2 gives an angle in this range. Don't add 360, and don't use % 360 alone."

@@ -45,7 +45,7 @@ sectors = Exercise("sectors", "Ahead, left and right", scenarios=[
 def publishes_three_distances(run: Recording) -> list[SectorValue]:
     """The node subscribes to /scan, and publishes Float64 messages on /front, /left and /right."""
     subscribes(run, "/scan", SCAN)
-    with hinting(guess="A publisher for each of the three, and a message on each after every scan."):
+    with hinting(guess="Create a publisher for each of the three, and publish on each after every scan."):
         for topic in MIDDLES:
             publishes(run, topic, "std_msgs/msg/Float64", at_least=5)
     return list(_answers(run))
@@ -77,27 +77,27 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
 
 
 @sectors.check(5, after=publishes_three_distances, hints={
-    "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it.":
+    "That is only one ray. Take the shortest of all rays up to 30 degrees to either side of it.":
         _all(lambda answer: answer.value == answer.sector.middle),
-    "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?":
+    "That is the first ray, or none at all: is your `return` after the loop, not inside it?":
         _returns_in_the_loop,
-    "That is the greatest distance. min(...) finds the least one.":
+    "That is the greatest distance. min(...) finds the smallest one.":
         _all(lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()),
-    "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
-    "makes degrees of radians.":
+    "That is the nearest distance in any direction. Are both angles in degrees? math.degrees(...) "
+    "converts radians to degrees.":
         lambda run, wrong: all(it.value == it.sector.around for it in wrong if it.topic == wrong[0].topic),
-    "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "
-    "each, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
-    "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides.": _is_within,
-    "That is too far to the side: only the rays up to 30 degrees from the middle count.": _is_too_far_aside,
-    "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at -10. "
-    "Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180.":
+    "This lidar has 180 rays, and the first one points backwards. So don't count rays: compute each "
+    "ray's angle, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
+    "That covers only part of this direction: take the rays up to 30 degrees to either side.": _is_within,
+    "That is too far to the side: use only the rays up to 30 degrees from the middle.": _is_too_far_aside,
+    "This lidar's forward rays are at the two ends of its ranges: a ray at 350 degrees is the same as "
+    "one at -10. Wrap the difference of two angles to -180 to 180: (angle - middle + 180) % 360 - 180.":
         lambda run, wrong: wrong[0].topic == "/front",
-    "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right.":
+    "Angles are in radians, from straight ahead to the left: 90 degrees is left, -90 (or 270) is right.":
         otherwise,
 })
 def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[SectorValue]:
-    """Each is the nearest distance in its direction, 30 degrees to both sides, with any lidar."""
+    """Each is the nearest distance in its direction, 30 degrees to either side, with any lidar."""
     _all_right(answers, "plain")
     for topic in MIDDLES:
         lasts(run, topic)
@@ -105,7 +105,7 @@ def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[Sec
 
 
 @sectors.check(4, after=knows_the_directions, hints={
-    "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False.":
+    "Skip them before min(): `if not math.isnan(distance)`. Every comparison with nan is False.":
         otherwise
 })
 def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
@@ -114,13 +114,13 @@ def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
 
 
 @sectors.check(3, after=knows_the_directions, hints={
-    "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is.":
+    "max(0.0, distance) turns -inf into 0.0, and leaves everything else unchanged.":
         lambda run, wrong: wrong[0].sector.kind == "near",
-    "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default.":
+    "If all rays are inf, the answer is inf. Skip only nan, and give min() a default for an empty list.":
         otherwise,
 })
 def knows_near_and_far(run: Recording, answers: list[SectorValue]) -> None:
-    """If nothing is there, it is inf; something too near to be measured (-inf) is 0.0 m away."""
+    """If nothing is there, it is inf; something too close to be measured (-inf) is 0.0 m away."""
     _all_right(answers, "near")
     _all_right(answers, "empty")
 

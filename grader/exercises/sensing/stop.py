@@ -15,38 +15,38 @@ def _any(run: Recording, field: str) -> bool:
 
 
 @stop.check(2, hints={
-    "linear.x is negative: that is backwards.":
+    "linear.x is negative, which drives backwards: make it positive.":
         lambda run, far: any(speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")),
-    "The commands stop too early, or come too rarely: publish one in every callback.":
+    "The commands stop too early, or are too rare: publish one in every callback.":
         lambda run, far: _any(run, "linear.x"),
-    "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.":
+    "It turns on the spot: linear.x is the forward speed; angular.z is how fast it turns.":
         lambda run, far: _any(run, "angular.z"),
-    "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line say "
-    "then?": otherwise,
+    "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your condition "
+    "give then?": otherwise,
 })
 def sets_off(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     far = max(pose.x for pose in run.path)
     if far < 0.5:
-        expected = "a robot that drives ahead while nothing is nearer than 1 m"
-        raise Missed(expected, f"it comes {far:.2f} m far", picture="path", about=(far,))
+        expected = "a robot that drives ahead while nothing is closer than 1 m"
+        raise Missed(expected, f"it gets {far:.2f} m", picture="path", about=(far,))
 
 
 @stop.check(4, after=sets_off, hints={
     "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).":
         lambda run, gap: gap > STOP_AT,
-    "That is late for a robot at 0.3 m/s: is a zero sent at once, in the same callback?":
+    "That is late for a robot at 0.3 m/s: do you publish zero at once, in the same callback?":
         lambda run, gap: gap > STOP_AT - 0.25,
     "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).": otherwise,
 })
 def stops_in_time(run: Recording) -> None:
-    """It stops when the wall is nearer than 1 m, and at once."""
+    """It stops as soon as the wall is closer than 1 m."""
     gap = run.world.bounds[2] - run.path[-1].x
     if run.contacts:
         saw = f"the robot drove into it at {run.contacts[0].stamp:.3g} s"
-        hint = ("Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
-                "comparison the right way round?")
+        hint = ("Decide again for every scan: ahead while min(msg.ranges) is above 1.0, else 0.0. Is "
+                "the comparison the right way round?")
         raise Missed("a stop before the wall", saw, hint, picture="path", unsafe=True)
     if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
         expected = ("a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few "
@@ -60,7 +60,7 @@ def publishes_a_stop(run: Recording) -> None:
     stands_still(run)
     stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
     if speed or run.ended.stamp - stamp > 0.5:
-        expected = "zeros on /cmd_vel as long as the wall is near"
-        hint = ("It stood still only because the robot stops by itself without commands. Publish in every "
-                "callback, a Twist() of zeros, too.")
+        expected = "zeros on /cmd_vel as long as the wall is close"
+        hint = ("It stood still only because the robot stops by itself when commands end. Publish in every "
+                "callback, even when it is a Twist() of zeros.")
         raise Missed(expected, f"{speed:g} m/s as the last command, at {stamp:.3g} s", hint, picture="topics")

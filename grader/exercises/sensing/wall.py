@@ -14,7 +14,7 @@ NEAR, FAR = 0.3, 0.8  # meters from the wall
 SETTLED = 3.0  # seconds
 SHARE = 0.9  # of the time
 
-wall = Exercise("wall", "Round the room", world=gallery, seconds=90, seeds=(1, 2))
+wall = Exercise("wall", "Around the room", world=gallery, seconds=90, seeds=(1, 2))
 
 
 def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
@@ -36,25 +36,25 @@ def leaves_the_start(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     if traveled(run) < 0.5:
-        raise Missed("a robot that drives", f"a way of {traveled(run):.2f} m", picture="path")
+        raise Missed("a robot that drives", f"a path of {traveled(run):.2f} m", picture="path")
 
 
 @wall.check(4, after=leaves_the_start, hints={
     "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.":
         lambda run: (command := refused_command(run))
         and (not run.contacts or run.contacts[0].side != "front") and {"command": command},
-    "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
-    "0.6 m, stop and turn left until it is free again.":
+    "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is closer than "
+    "0.6 m, stop and turn left until the path is clear again.":
         lambda run: run.contacts and run.contacts[0]._asdict(),
     "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.":
         lambda run: (gap := statistics.median(_nearest_wall(run, pose)[0] for pose in run.path))
         and not NEAR <= gap <= FAR and {"gap": gap},
-    "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].":
+    "It goes around the other way. Keep the wall on its right, at -90 degrees: ranges[270].":
         _goes_the_other_way,
-    "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.":
+    "It is too slow, or stops at times: the path is about 13 m long, so drive at 0.2 m/s or more.":
         lambda run: traveled(run) < 10.0,
-    "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays at "
-    "0.5 m.": lambda run: True,
+    "Use two rules: turn left when the wall ahead is close; otherwise steer so that the wall on the right "
+    "stays 0.5 m away.": lambda run: True,
 })
 def goes_round(run: Recording) -> None:
     """It goes around the room, with the wall on its right: past all four corners, within 90 s."""
@@ -71,18 +71,18 @@ def goes_round(run: Recording) -> None:
         done = round(missed.credit * len(corners))
         raise Missed(
             f"the four corners: {', '.join(corners)}",
-            f"{done} of them; then it never came within 0.6 m of the {list(corners)[done]} one's inside",
+            f"{done} of them; then it never came within 0.6 m of the inside of the {list(corners)[done]} one",
             credit=max(0, done - 1) / (len(corners) - 1),  # one may be passed by chance
             picture="path",
         ) from None
 
 
 @wall.check(8, after=goes_round, hints={
-    "Look to the right, at ranges[270], and steer by what is there.": lambda run, left, near, far: left > 0.5,
-    "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before it is "
-    "0.3 m: is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
-    "Turn a little to the right when the wall on the right is further than 0.5 m: it must not get "
-    "lost.": otherwise,
+    "Look to the right, at ranges[270], and steer by that distance.": lambda run, left, near, far: left > 0.5,
+    "Turn a little to the left when the wall on the right is closer than 0.5 m, before it is 0.3 m away: "
+    "is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
+    "Turn a little to the right when the wall on the right is farther than 0.5 m: don't lose "
+    "it.": otherwise,
 })
 def keeps_the_distance(run: Recording) -> None:
     """It keeps 30 cm to 80 cm from the wall on its right, for nine tenths of the time or more."""
@@ -101,7 +101,7 @@ def keeps_the_distance(run: Recording) -> None:
     other = 1.0 - share - near - far
     raise Missed(
         f"{SHARE:.0%} of the time at {NEAR:g} m to {FAR:g} m from the nearest wall",
-        f"{share:.0%} of the time; {near:.0%} nearer, {far:.0%} further away"
+        f"{share:.0%} of the time; {near:.0%} closer, {far:.0%} farther away"
         + (f", {other:.0%} with a wall on its left" if other >= 0.05 else ""),
         credit=share * 0.8 if share >= 0.5 else 0.0,
         picture="path",
@@ -112,5 +112,5 @@ def keeps_the_distance(run: Recording) -> None:
 @wall.check(4, after=goes_round)
 def touches_nothing(run: Recording) -> None:
     """It touches nothing."""
-    hint = "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m."
+    hint = "Before a corner, watch the wall ahead: when it is closer than 0.6 m, stop and turn left."
     keeps_clear(run, hint)
