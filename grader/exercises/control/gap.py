@@ -16,10 +16,10 @@ TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
 LAST, PERIOD = 4.0, 0.05  # s; from one scan to the next
 HELD = 0.4  # of the scans: fewer, and the motors brake
 CLOSE = 1e-3  # m
-WIND_UP = ("All the way to the wall the error is large and the motor at its limit: the sum grows and grows, "
-           "and has to be worn off behind the goal. While the speed is cut, don't add to the sum.")
+WIND_UP = ("On the way to the wall the error is large and the speed is at its limit: the sum keeps growing, "
+           "and only an overshoot reduces it again. While the speed is clipped, don't add to the sum.")
 SIGN = ("The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is "
-        "the sign right, and P large enough?")
+        "the sign right, and is P large enough?")
 
 gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2))
 
@@ -32,12 +32,13 @@ def publishes_both(run: Recording) -> None:
 
 
 @gap.check(4, after=publishes_both, hints={
-    "That is the scan itself, with all its noise: mix it with what you had before.":
+    "That is the raw scan, with all its noise: mix it with your previous value.":
         lambda run, sent, scans: matches(sent, scans, CLOSE),
     "The weights are swapped: a fifth of the new value, four fifths of the old one.":
         lambda run, sent, scans: matches(sent, _filtered(scans, 1 - WEIGHT), CLOSE),
-    "It begins at 0: take the first distance as it is.": lambda run, sent, scans: sent[0] < scans[0] / 2,
-    "self.distance + 0.2 * (new - self.distance), and keep it for the next scan.": otherwise,
+    "It begins at 0: use the first distance unfiltered.": lambda run, sent, scans: sent[0] < scans[0] / 2,
+    "Compute self.distance + 0.2 * (new - self.distance), and store it in self.distance for the next "
+    "scan.": otherwise,
 })
 def filters(run: Recording) -> None:
     """/distance is what the lidar sees ahead, filtered: a fifth of the new value, four fifths of the old."""
@@ -59,11 +60,11 @@ def filters(run: Recording) -> None:
 @gap.check(4, after=publishes_both, hints={
     SIGN: lambda run: _drives_the_wrong_way(run),
     WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,
-    "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall.":
+    "The error is the distance minus 0.6 m: it is 0 where the robot has to stop, not at the wall.":
         lambda run: True,
 })
 def does_not_run_into_the_wall(run: Recording) -> None:
-    """The robot gets within 0.85 m of the wall, and never nearer than 0.48 m. It touches nothing."""
+    """The robot gets within 0.85 m of the wall, and never closer than 0.48 m. It touches nothing."""
     keeps_clear(run, "")
     distances = _distances(run, 0.0)
     nearest, stamp = min(distances)
@@ -77,23 +78,24 @@ def does_not_run_into_the_wall(run: Recording) -> None:
 
 @gap.check(2, after=does_not_run_into_the_wall)
 def keeps_within_the_limit(run: Recording) -> None:
-    """No speed is beyond 0.3 m/s, in either direction."""
-    with hinting(f"Cut it before you publish it: max(-{MOST:g}, min({MOST:g}, speed))."):
+    """The speed never exceeds 0.3 m/s, in either direction."""
+    with hinting(f"Clip it before you publish it: max(-{MOST:g}, min({MOST:g}, speed))."):
         within(run, "/speed", "data", -MOST, MOST, unit="m/s")
 
 
 @gap.check(4, after=does_not_run_into_the_wall, hints={
-    "P alone stands where its push is as strong as the pull of the slope. I takes the rest away: the sum "
+    "P alone stops where its command just balances the slope. I removes the remaining error: add the sum "
     "of error times time.": lambda run, distance: distance > TARGET,
     WIND_UP: otherwise,
 })
 def stands_at_the_distance(run: Recording) -> None:
-    """In the last four seconds it stands 0.6 m from the wall, within 3 cm."""
+    """For the last four seconds it stands 0.6 m from the wall, within 3 cm."""
     begin = run.ended.stamp - LAST
     speeds = Window(begin, run.ended.stamp).rows(run.messages("/speed"))
     held = sum(math.isfinite(row.message.data) for row in speeds)
     if held < HELD * LAST / PERIOD:
-        hint = "A node that says nothing leaves it to the brake: publish a speed with each scan, to the end."
+        hint = ("A node that publishes nothing leaves the job to the brake: publish a speed for every scan, "
+                "to the end.")
         raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
     worst, _ = max(_distances(run, begin), key=lambda row: abs(row[0] - TARGET))
     if abs(worst - TARGET) > NEAR:

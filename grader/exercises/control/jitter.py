@@ -37,45 +37,45 @@ def subscribes_to_beats(run: Recording) -> None:
 
 
 @jitter.check(4, after=subscribes_to_beats, hints={
-    "Arrival minus stamp, and not the other way round.":
+    "It is arrival minus stamp, not the other way round.":
         lambda run, sent, beats: matches(sent, [-beat.latency for beat in beats], EXACT),
-    "That is the time of day: take the stamp away from it.":
+    "That is the time of arrival: subtract the stamp from it.":
         lambda run, sent, beats: matches(sent, [EPOCH / SECOND + beat.arrived for beat in beats], EXACT),
     "The latency is now minus the stamp in the header, in seconds.": otherwise,
 })
 def measures_the_latency(run: Recording) -> list[Beat]:
-    """With each message its latency is on /latency: from when it was measured to when it arrived."""
+    """For each message its latency is published on /latency: from when it was measured to when it arrived."""
     beats = _beats(run)
     _require_numbers(run, "/latency", FLOAT, [beat.latency for beat in beats], beats)
     return beats
 
 
 @jitter.check(5, after=measures_the_latency, hints={
-    "Early counts as much as late: take abs(...) of it.":
+    "Early counts as much as late: use abs(...).":
         lambda run, sent, beats: matches(sent, [gap - PERIOD for gap in _gaps(run)], EXACT),
     "That is the time between two arrivals: how much does it differ from 0.02 s?":
         lambda run, sent, beats: matches(sent, _gaps(run), EXACT),
-    "Between the stamps it is always 0.02 s, for the sensor measures exactly. What your loop feels is "
-    "when messages arrive: by your own clock.": lambda run, sent, beats: matches(
+    "Between stamps it is always 0.02 s, because the sensor measures exactly. What matters to your loop "
+    "is when messages arrive, by your own clock.": lambda run, sent, beats: matches(
         sent, [abs(b.measured - a.measured - PERIOD) for a, b in itertools.pairwise(_beats(run))], EXACT
     ),
-    "Remember when the last message arrived, by your clock; abs(now - before - 0.02).": otherwise,
+    "Store when the last message arrived, by your clock; the jitter is abs(now - before - 0.02).": otherwise,
 })
 def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
-    """With each message but the first, /jitter is how far the time since the last one is from 0.02 s."""
+    """For each message but the first, /jitter is how far the time since the previous one is from 0.02 s."""
     _require_numbers(run, "/jitter", FLOAT, [abs(gap - PERIOD) for gap in _gaps(run)], beats[1:])
 
 
 @jitter.check(3, after=measures_the_latency, hints={
-    "Each count is for one message alone: add them up, self.late += 1.":
+    "You count each message separately: add them up, self.late += 1.":
         lambda run, sent, beats: matches(sent, [int(beat.latency > ALLOWED) for beat in beats]),
-    "Those came in time.": lambda run, sent, beats: matches(
+    "Those arrived in time: count only the late ones.": lambda run, sent, beats: matches(
         sent, list(itertools.accumulate(int(beat.latency <= ALLOWED) for beat in beats))
     ),
     "Count those whose latency is above 0.01 s, from the start on.": otherwise,
 })
 def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
-    """After each message, /late is how many had a latency of more than 0.01 s."""
+    """After each message, /late is how many messages so far had a latency of more than 0.01 s."""
     counts = list(itertools.accumulate(int(beat.latency > ALLOWED) for beat in beats))
     _require_numbers(run, "/late", "std_msgs/msg/Int32", counts, beats)
 
@@ -95,7 +95,7 @@ def _require_numbers(run: Recording, topic: str, type_: str, right: list[float],
         rows = publishes(run, topic, type_)
     sent = [row.message.data for row in rows]
     if not len(right) - 1 <= len(sent) <= len(right):  # the last may be under way in the end
-        hint = "One number for each message: no more, and none left out."
+        hint = "Publish one number for each message: no more, and none left out."
         raise Missed(f"{len(right)} messages on {topic}", f"{len(sent)}", hint)
     for number, (saw, expected) in enumerate(zip(sent, right, strict=False), 1):
         if not same(saw, expected, EXACT):
@@ -103,6 +103,6 @@ def _require_numbers(run: Recording, topic: str, type_: str, right: list[float],
             raise Missed(expectation, f"{round(saw, 6):.4g}", about=(sent, beats))
     for row, beat in zip(rows, beats, strict=False):
         if not same(row.stamp, beat.arrived, SOON):
-            hint = "Publish in the callback, as each message comes: later the number is of no use."
+            hint = "Publish in the callback, as each message arrives: later the number is of no use."
             expectation = f"a number on {topic} for the message of {beat.arrived:.3g} s, within {SOON:g} s"
             raise Missed(expectation, f"it comes at {row.stamp:.3g} s", hint)

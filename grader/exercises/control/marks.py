@@ -23,34 +23,35 @@ marks = Exercise(
 @marks.check(2)
 def subscribes_and_pushes(run: Recording) -> None:
     """The node subscribes to /mark, and publishes efforts on /cart_effort."""
-    with hinting("Where the cart has to be comes on /mark."):
+    with hinting("The position where the cart has to be is published on /mark."):
         subscribes(run, "/mark", FLOAT)
     publishes(run, EFFORT, FLOAT, at_least=5)
 
 
 @marks.check(5, after=subscribes_and_pushes)
 def keeps_it_up(run: Recording) -> None:
-    """The pole stands for 17 s."""
+    """The pole stays up for 17 s."""
     stands(run)
 
 
 @marks.check(3, after=(subscribes_and_pushes, keeps_it_up))
 def spares_the_motor(run: Recording) -> None:
-    """No effort is beyond 3 N, in either direction."""
+    """The effort never exceeds 3 N, in either direction."""
     keeps_to_limits(run, WEAK)
 
 
 @marks.check(5, after=keeps_it_up, hints={
-    "First it has to come to the middle, where the mark is 0. Does x count?": lambda run, mark: mark == 0.0,
-    "It stays in the middle: take the mark away from x.":
+    "First the cart has to reach the middle, where the mark is 0. Does your effort depend on "
+    "x?": lambda run, mark: mark == 0.0,
+    "It stays in the middle: subtract the mark from x.":
         lambda run, mark: all(abs(x) < NEAR for _, x in _reached(run)),
-    "It goes to the other side: it is x minus the mark.":
+    "It goes to the other side: use x minus the mark.":
         lambda run, mark: all(abs(x + mark) < 2 * NEAR for mark, x in _reached(run)),
-    "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow.":
+    "A larger gain on the position gets it there sooner; increase the gain on the speed along with it.":
         otherwise,
 })
 def comes_to_the_marks(run: Recording) -> None:
-    """Four seconds after each mark has come, the cart is within 5 cm of it, and stays there."""
+    """Four seconds after each mark arrives, the cart is within 5 cm of it, and stays there."""
     still_stands(run)
     for begin, end, mark in _legs(run):
         settles(run.during(begin, end), mark, seconds=SOON, tolerance=NEAR)
@@ -58,9 +59,9 @@ def comes_to_the_marks(run: Recording) -> None:
 
 @marks.check(3, after=comes_to_the_marks)
 def goes_not_far_beyond(run: Recording) -> None:
-    """It goes at most 12 cm beyond a mark."""
+    """The cart overshoots a mark by at most 12 cm."""
     for begin, end, mark in _legs(run)[1:]:
-        with hinting("More weight on the speed of the cart brakes it earlier."):
+        with hinting("A larger gain on the cart's speed brakes it earlier."):
             overshoots(run.during(begin, end), mark, most=MOST)
 
 

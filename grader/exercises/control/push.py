@@ -20,13 +20,13 @@ def pushes(run: Recording) -> None:
 
 @push.check(5, after=pushes)
 def keeps_it_up(run: Recording) -> None:
-    """The pole stands for 19 s, although the cart is pushed twice."""
+    """The pole stays up for 19 s, although the cart is pushed twice."""
     stands(run)
 
 
 @push.check(2, after=(pushes, keeps_it_up))
 def spares_the_motor(run: Recording) -> None:
-    """No effort is beyond 10 N, in either direction."""
+    """The effort never exceeds 10 N, in either direction."""
     keeps_to_limits(run, LIMIT)
 
 
@@ -34,20 +34,21 @@ def spares_the_motor(run: Recording) -> None:
 def comes_back(run: Recording) -> None:
     """Three seconds after each push the cart is back, within 5 cm of the middle, and stays there."""
     still_stands(run)
-    with hinting("More weight on the place brings it back sooner; with it, that on the speed has to grow."):
+    with hinting("A larger gain on the position brings it back sooner; increase the gain on the speed along "
+                 "with it."):
         for begin, end in _after_pushes(run):
             settles(run.during(begin, end), 0.0, seconds=SOON, tolerance=NEAR)
 
 
 @push.check(2, after=keeps_it_up)
 def stands_quietly(run: Recording) -> None:
-    """And then the pole stands still, within 0.05 rad."""
+    """The pole then stays upright, within 0.05 rad."""
     still_stands(run)
     for begin, end in _after_pushes(run):
         rest = lean(run.during(begin + SOON, end))
         stamp, angle = max(rest, key=lambda row: abs(row[1]), default=(begin, 0.0))
         if abs(angle) > STEADY:
-            hint = "It swings for long: D brakes, and so does the speed of the cart."
+            hint = "It swings for too long: more D damps it, and so does a larger gain on the cart's speed."
             raise Missed(f"at most {STEADY:g} rad", f"{angle:.2g} rad at {stamp:.3g} s", hint)
 
 

@@ -15,30 +15,31 @@ from sim.evidence import Message, Recording
 LIMIT, ALONE = 0.035, 0.2  # s
 LOOKS, SOON = 0.3, 0.75  # s
 ANSWERS = "/brightest"
-ASIDE = ("A callback that takes long belongs in a callback group of its own, and a MultiThreadedExecutor "
-         "spins the node: with one of the two alone nothing changes.")
+ASIDE = ("A slow callback needs its own callback group, and the node needs a MultiThreadedExecutor: either "
+         "one alone changes nothing.")
 
 worker = Exercise(
-    "worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2), waits=False
+    "worker", "Off the main thread", world=work_cart, seconds=10, companions=[Camera], seeds=(1,
+                                                                                              2), waits=False
 )
 pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")
 
 
 @worker.check(2)
 def subscribes_and_publishes(run: Recording) -> None:
-    """The node subscribes to /picture, publishes efforts on /cart_effort and places on /brightest."""
+    """The node subscribes to /picture, and publishes efforts on /cart_effort and positions on /brightest."""
     subscribes(run, "/picture", "std_msgs/msg/UInt8MultiArray")
     publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
     publishes(run, ANSWERS, "std_msgs/msg/Int32")
 
 
 @worker.check(1, after=subscribes_and_publishes, hints={
-    "No one can see so quickly: call look(...) for each picture, and publish what it returns.":
+    "Nothing can process a picture so quickly: call look(...) for each picture, and publish what it returns.":
         lambda run, picture: any(_is_early(picture, row) for row in picture.responses),
-    "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
+    "Call look(...) for each picture that arrives, and publish what it returns. Leave none out.": otherwise,
 })
 def looks_at_each_picture(run: Recording) -> None:
-    """Each picture is processed: its brightest pixel's place is on /brightest 0.3 s to 0.75 s later."""
+    """Each picture is processed: its brightest pixel's position is on /brightest 0.3 s to 0.75 s later."""
     taken = pictures(run)
     missed = []
     for picture in taken:
@@ -69,13 +70,13 @@ def keeps_the_deadline(run: Recording) -> None:
     """An effort comes at least every 0.035 s, even while a picture is processed."""
     sent = [row.stamp for row in run.messages(EFFORT)]
     always = statistics.median(b - a for a, b in itertools.pairwise(sent)) > LIMIT
-    hint = "Push with each joint state, 100 times a second." if always else ASIDE
+    hint = "Publish an effort for each joint state, 100 times a second." if always else ASIDE
     keeps_deadline(run, EFFORT, LIMIT, hint=hint)
 
 
 @worker.check(3, after=keeps_it_up)
 def answers_once(run: Recording) -> None:
-    """One answer comes for each picture, and no other."""
+    """There is exactly one answer for each picture, and no other."""
     for picture in pictures(run):
         if picture.values() != [_brightest(picture)]:
             expected = f"{_brightest(picture)} on {ANSWERS} for the picture at {picture.stamp:.3g} s"

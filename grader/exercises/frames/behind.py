@@ -17,18 +17,18 @@ NEAREST, FARTHEST = 0.7, 1.4  # m
 SETTLED, CLEAR = 9.0, 0.2  # s; rad, from which on the side is clear
 LATE = 1.0  # s, after which the frames of the two robots are connected in one of the runs
 WHY_OFF = {
-    "It looks from the leader: lookup_transform(target, source, time) says where the source is, seen from "
-    "the target. The target is the robot's own frame, base_link, and the source the leader's.":
+    "Target and source are swapped: lookup_transform(target, source, time) gives the pose of the source, "
+    "seen from the target. The target is the robot's own frame, base_link, and the source the leader's.":
         lambda run, gaps: _looks_from_the_leader(run),
-    "The robot hardly moves. Does the lookup fail each time? Log the error: it says why. And is the "
-    "robot's own frame, base_link, the target?":
+    "The robot hardly moves. Does the lookup fail each time? Log the exception: it says why. And is "
+    "the robot's own frame, base_link, the target?":
         lambda run, gaps: math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1,
-    "It is too near: the point 1 m behind the leader is at x = -1 in leader/base_link.":
+    "It is too close: the point 1 m behind the leader is at x = -1 in leader/base_link.":
         lambda run, gaps: gaps and statistics.mean(gaps.values()) < 0.75,
-    "It loses the leader. Ask where the point is in base_link, the robot's own frame: odom and "
-    "leader/odom are two frames, and only the tree knows how they lie.":
+    "It loses the leader. Look up where the point is in base_link, the robot's own frame: odom "
+    "and leader/odom are two different frames, and only the tf tree relates them.":
         lambda run, gaps: gaps and statistics.mean(gaps.values()) > 2.0,
-    "Steer by the angle atan2(y, x) of the point in base_link, in rad; drive faster the farther it is.":
+    "Steer by the angle of the point in base_link, atan2(y, x) in rad; drive faster the farther away it is.":
         otherwise,
 }
 
@@ -48,10 +48,10 @@ def subscribes_and_drives(run: Recording) -> None:
 
 @behind.check(11, after=subscribes_and_drives, only="driving", hints=WHY_OFF)
 def keeps_the_gap(run: Recording) -> None:
-    """From 9 s on it is 0.7 m to 1.4 m from the leader, for nine tenths of the time."""
+    """From 9 s on the robot is 0.7 m to 1.4 m from the leader, for at least nine tenths of the time."""
     gaps = _gaps(run)
     if not gaps:
-        raise Missed(f"a robot that follows until {SETTLED:g} s and longer", "the run ended before")
+        raise Missed(f"a robot that follows until {SETTLED:g} s and longer", "the run ended earlier")
     off = {stamp: gap for stamp, gap in gaps.items() if not NEAREST <= gap <= FARTHEST}
     if len(off) > 0.1 * len(gaps):
         stamp, gap = max(off.items(), key=lambda row: abs(row[1] - GAP))
@@ -62,7 +62,7 @@ def keeps_the_gap(run: Recording) -> None:
 
 @behind.check(5, after=subscribes_and_drives, only="parked", hints=WHY_OFF)
 def stands_behind_one_who_stands(run: Recording) -> None:
-    """Behind a leader that has stopped, it stops itself, within 0.25 m of that point."""
+    """When the leader has stopped, the robot stops within 0.25 m of the point 1 m behind it."""
     robot, leader = run.path[-1], run.tracks["leader"][-1]
     error = math.dist(robot[1:3], Pose2D(*leader[1:]).point((-GAP, 0.0)))
     if not error <= BAND:

@@ -13,11 +13,12 @@ from sim.evidence import Message, Recording, Seconds, since_start
 POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON, AT_ONCE = 0.03, 1.2, 0.2  # m, s, s
 OFTEN, ELSEWHERE = 0.4, 0.3  # of the points: published more than once; where it was at another moment
-LATER = ("The transform comes half a second after the detection: keep the detection, and look again later. "
-         "A callback that waits for it in a loop keeps its own node from receiving. Each is known by its "
-         "stamp.")
+LATER = ("The transform arrives half a second after the detection: store the detection, and try again later. "
+         "A callback that waits in a loop keeps its own node from receiving the transform. Keep each "
+         "detection's "
+         "own stamp.")
 
-delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLocalization], seeds=(1, 2))
+delayed = Exercise("delayed", "Too early to look up", seconds=6, companions=[SlowLocalization], seeds=(1, 2))
 detections = Stimuli("/detection", answered_on="/found", within=SOON, what="detections")
 
 
@@ -30,7 +31,7 @@ def subscribes_to_detections(run: Recording) -> None:
 
 @delayed.check(10, after=subscribes_to_detections)
 def places_them(run: Recording) -> None:
-    """Each detection comes out on /found (PointStamped), once and within 1.2 s: where it was then, in map."""
+    """Each detection is on /found (PointStamped), once and within 1.2 s: where it was then, in map."""
     with hinting(LATER):
         publishes(run, "/found", POINT)
     seen = detections(run, at_least=5)
@@ -46,16 +47,17 @@ def places_them(run: Recording) -> None:
 
 @delayed.check(4, after=places_them)
 def waits_no_longer_than_needed(run: Recording) -> None:
-    """It comes out as soon as its transform is there, within 0.2 s."""
+    """It is published as soon as its transform is available, within 0.2 s."""
     for seen in detections(run, at_least=5):
         for answer in _answers(seen)[:1]:
             ready = next(one.stamp for one in _robot(run) if one.measured >= _measured(seen.message) - EDGE)
             what = f"the detection of {seen.stamp:.3g} s on /found"
             if answer.stamp < ready - EDGE:
-                hint = "The robot's pose at that time wasn't known yet. Wait for the time of the detection."
+                hint = ("The robot's pose at that time wasn't known yet. Wait for a transform at the time of "
+                        "the detection.")
                 raise Missed(f"{what} not before {ready:.3g} s", f"at {answer.stamp:.3g} s", hint)
             if answer.stamp > ready + AT_ONCE:
-                hint = "Look again in a timer of 0.05 s, or await what wait_for_transform_async gives."
+                hint = "Try again in a timer of 0.05 s, or await what wait_for_transform_async returns."
                 raise Missed(f"{what} by {ready + AT_ONCE:.3g} s", f"at {answer.stamp:.3g} s", hint)
 
 
@@ -70,8 +72,9 @@ def _require_places(run: Recording, seen: list[Stimulus]) -> None:
                 was_there = math.dist((point.x, point.y), _point(newest, one)) <= NEAR
                 expected = f"({x:.2f}, {y:.2f}) m in map, for the detection at {one.stamp:.3g} s"
                 saw = f"({point.x:.2f}, {point.y:.2f}) m in {frame or 'no frame'}"
-                hint = ("Time() asks for the newest transform that has come, and that one is half a second "
-                        "old: the robot was elsewhere. Wait for the time of the detection, msg.header.stamp.")
+                hint = ("Time() gives the newest transform that has arrived, and that one is half a second "
+                        "old: the robot was somewhere else. Wait for the time of the detection, "
+                        "msg.header.stamp.")
                 raise Missed(expected, saw, hint, credit=ELSEWHERE if was_there else 0.0)
 
 

@@ -29,18 +29,18 @@ def subscribes_to_sightings(run: Recording) -> None:
 
 
 @lookup.check(6, after=subscribes_to_sightings, hints={
-    "Publish in the callback: what buffer.transform or do_transform_point gives.":
+    "Publish in the callback what buffer.transform or do_transform_point returns.":
         lambda run, seen: len(seen.responses) != 1,
     "Target first, then source: buffer.transform(msg, 'map').": lambda run, seen: _frame(seen) != "map",
-    "That is where it would be now. The robot has driven on since: ask for the time of the sighting, "
-    "msg.header.stamp, and not for the newest, Time().":
+    "That is where it would be now. The robot has driven on since: look up the time of the sighting, "
+    "msg.header.stamp, and not the newest, Time().":
         lambda run, seen: math.dist(_answer(seen), _place(run, seen, seen.stamp)) < LATE,
-    "That is the point as the camera sees it. It has to be taken into the frame map.":
+    "That is the point as the camera sees it. Transform it into the frame map.":
         lambda run, seen: same(_answer(seen), (seen.value.point.x, seen.value.point.y)),
     "Target first, then source: lookup_transform('map', msg.header.frame_id, msg.header.stamp).": otherwise,
 })
 def places_them(run: Recording) -> None:
-    """Each sighting by a robot on the map comes out on /found (PointStamped): where it was, in map."""
+    """Each sighting by a robot on the map is published on /found (PointStamped): where it was, in map."""
     publishes(run, FOUND, POINT)
     judged = [seen for seen in _sightings(run) if not _reason(run, seen)]
     shares = [_share(run, seen) for seen in judged]
@@ -59,7 +59,7 @@ def places_them(run: Recording) -> None:
 
 @lookup.check(5, after=places_them)
 def publishes_refusals(run: Recording) -> None:
-    """If the lookup fails, the exception's name comes out on /refused (String), such as LookupException."""
+    """If the lookup fails, its exception's name is on /refused (String), such as LookupException."""
     publishes(run, REFUSED, "std_msgs/msg/String")
     for seen in refused_sightings(run, at_least=len(SIGHTINGS)):
         reason = _reason(run, seen)
@@ -78,18 +78,20 @@ def carries_on(run: Recording) -> None:
     for topic, count in ((FOUND, reasons.count("")), (REFUSED, len(reasons) - reasons.count(""))):
         sent = settled.rows(run.messages(topic))
         if len(sent) > count:
-            hint = "A sighting gives a place or a refusal: publish the one in try, the other in except."
+            hint = ("Each sighting gives either a point or a refusal: publish the point in try, the refusal "
+                    "in except.")
             raise Missed(f"{count} messages on {topic}", f"{len(sent)}", hint)
 
 
 @lookup.check(2, after=places_them)
 def keeps_the_stamp(run: Recording) -> None:
-    """The place on the map has the stamp of its sighting: the time at which it was there."""
+    """The point on the map has the stamp of its sighting: the time at which it was there."""
     stamps = [_measured(seen) for seen in _sightings(run)]
     for row in Window(0.0, run.ended.stamp - SOON).rows(run.messages(FOUND)):
         stamp = row.message.header.stamp
         if not any(same(since_start(stamp), known) for known in stamps):
-            hint = "buffer.transform keeps it; what do_transform_point gives has the stamp of the lookup."
+            hint = ("buffer.transform keeps the stamp; what do_transform_point returns has the stamp of the "
+                    "lookup, so set it yourself.")
             raise Missed("a stamp of one of the sightings", stamp_words(stamp), hint)
 
 

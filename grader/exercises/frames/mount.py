@@ -11,7 +11,7 @@ from sim.evidence import Recording
 
 STATIC, MOUNTING = "/tf_static", "/mounting"
 
-mount = Exercise("mount", "Where the lidar sits", seconds=3, companions=[Mechanic], seeds=(1, 2))
+mount = Exercise("mount", "Where the lidar is mounted", seconds=3, companions=[Mechanic], seeds=(1, 2))
 
 
 @mount.check(2, guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf.")
@@ -42,8 +42,8 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
 
 
 @mount.check(5, after=puts_it_there, hints={
-    f"z 0 and w 1 is no turn at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
-    "theta is in radians already.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
+    f"z 0 and w 1 is no rotation at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
+    "theta is already in radians.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
     FULL_TURN: otherwise,
 })
 def turns_it(run: Recording, sent: list[Broadcast]) -> None:
@@ -51,7 +51,7 @@ def turns_it(run: Recording, sent: list[Broadcast]) -> None:
     theta, turn = from_course(run, MOUNTING)[0].message.theta, sent[-1].message.transform.rotation
     if not sent[-1].is_rotation:
         length = math.hypot(turn.x, turn.y, turn.z, turn.w)
-        saw = f"one of length {length:.2f}, which tf2 throws away"
+        saw = f"one of length {length:.2f}, which tf2 discards"
         raise Missed("a quaternion of length 1", saw, FULL_TURN)
     yaw = sent[-1].pose.yaw
     if abs(math.remainder(yaw - theta, math.tau)) > NEAR:
@@ -65,5 +65,6 @@ def is_latched_and_sent_once(run: Recording) -> None:
     ends = [end for end in run.graph.publishers(STATIC) if not end.from_course]
     volatile = any(end.qos["durability"] == "volatile" for end in ends)
     if volatile or count > 1:
-        hint = "A StaticTransformBroadcaster keeps it for latecomers: send it once, when /mounting comes."
-        raise Missed("one message, kept (transient local)", f"{count}{', volatile' * volatile}", hint)
+        hint = ("A StaticTransformBroadcaster latches it for late subscribers: send it once, when /mounting "
+                "arrives.")
+        raise Missed("one message, latched (transient local)", f"{count}{', volatile' * volatile}", hint)

@@ -22,7 +22,7 @@ odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companion
                     seeds=(1, 2))
 
 
-@odometry.check(2, guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback.")
+@odometry.check(2, guess="A TransformBroadcaster's sendTransform publishes on /tf: call it in the callback.")
 def subscribes_and_broadcasts(run: Recording) -> None:
     """The node subscribes to /wheels/odom, and publishes transforms on /tf."""
     subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
@@ -30,11 +30,11 @@ def subscribes_and_broadcasts(run: Recording) -> None:
 
 
 @odometry.check(5, after=subscribes_and_broadcasts, hints={
-    "That is where it was before. Send in the callback of /wheels/odom, and not from a timer.":
+    "That is an earlier pose. Send in the callback of /wheels/odom, not from a timer.":
         lambda run, sent, poses: _is_late(sent, poses),
-    "translation is the position, pose.pose.position: x and y of the same message.":
+    "translation is the position: x and y of pose.pose.position in the same message.":
         lambda run, sent, poses: not _is_placed(sent, poses),
-    f"Parts of rotation are those of pose.pose.orientation, all four. {FULL_TURN}": otherwise,
+    f"rotation is pose.pose.orientation: copy all four numbers. {FULL_TURN}": otherwise,
 })
 def puts_it_there(run: Recording) -> None:
     """The parent is odom, the child base_link, and position and rotation are the odometry's."""
@@ -51,8 +51,8 @@ def puts_it_there(run: Recording) -> None:
         expected = f"{poses[-1]} at {first.stamp:.3g} s"
         raise Missed(expected, f"{first.pose}", about=(first, poses), credit=credit)
     if len(sent) < OFTEN * len(rows):
-        hint = "The robot drives on: send in the callback of /wheels/odom, each time it is called."
-        raise Missed(f"a transform for each of {len(rows)} odometries", f"{len(sent)}", hint)
+        hint = "The robot keeps moving: send in the callback of /wheels/odom, every time it is called."
+        raise Missed(f"a transform for each of {len(rows)} odometry messages", f"{len(sent)}", hint)
 
 
 @odometry.check(3, after=puts_it_there)
@@ -69,21 +69,23 @@ def one_for_each(run: Recording) -> None:
 
 @odometry.check(4, after=puts_it_there)
 def stamps_it(run: Recording) -> None:
-    """The transform has the odometry's stamp: when it was measured, and not when it was sent."""
+    """The transform has the odometry's stamp: when it was measured, not when it was sent."""
     stamps = [since_start(row.message.header.stamp) for row in _odometry(run)]
     sent = broadcasts(run, "/tf")
     for one in sent:
         if not any(same(one.measured, stamp) for stamp in stamps):
             stamp = one.message.header.stamp
-            hint = "Take header.stamp of the odometry: that is when the robot was there."
+            hint = "Use the header.stamp of the odometry message: that is when the robot was there."
             if stamp == Time():
-                hint = "Without a stamp it is a transform of time 0."
+                hint = ("Without a stamp the transform is for time 0: copy the header.stamp of the odometry "
+                        "message.")
             nearest = max((known for known in stamps if known <= one.stamp), default=stamps[0])
             raise Missed(f"the stamp of {nearest:.3f} s", stamp_words(stamp), hint)
     count = len({one.measured for one in sent})
     if count < OFTEN * len(stamps):
-        hint = "Each odometry has a stamp of its own: take header.stamp of the one that has just come."
-        raise Missed(f"{len(stamps)} stamps, one for each odometry", f"{count}", hint)
+        hint = ("Every odometry message has its own stamp: use the header.stamp of the one that has just "
+                "arrived.")
+        raise Missed(f"{len(stamps)} stamps, one for each odometry message", f"{count}", hint)
 
 
 def _odometry(run: Recording) -> list[Message]:

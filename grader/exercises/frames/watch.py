@@ -35,7 +35,7 @@ def faces_the_scout(run: Recording) -> None:
         angle = math.atan2(scout.y - tower.y, scout.x - tower.x)
         off = abs(math.remainder(angle - tower.yaw, math.tau))
         if tower.stamp >= SETTLED and not off <= BAND:
-            hint = "Which robot does it look at? `target` is the name of the one that drives: scout."
+            hint = "Which robot is it watching? Set `target` to the name of the one that drives: scout."
             raise Missed(f"at most {BAND:g} rad off the scout", f"{off:.2f} rad at {tower.stamp:.3g} s", hint)
 
 
@@ -44,7 +44,7 @@ def leaves_others_alone(run: Recording) -> None:
     """The other robot stays where it is."""
     for pose in run.path:
         if math.dist(run.path[0][1:3], pose[1:3]) > STILL:
-            hint = "That robot is not yours: send nothing on /cmd_vel."
+            hint = "That robot isn't yours: publish nothing on /cmd_vel."
             saw = f"it has moved by {pose.stamp:.3g} s"
             raise Missed("the other robot where it was", saw, hint, unsafe=True)
 
@@ -55,7 +55,7 @@ def _require_no_waiting(run: Recording) -> None:
     if waits:
         is_watcher = all(line.text.startswith(WAITING) for line in waits)
         saw = f"“{waits[0].text}” at {waits[0].stamp:.3g} s"
-        hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
+        hint = "The log says which frame it is waiting for. Which robots are there? `target` is a parameter."
         credit = HALF if is_watcher and _publishers(run, OUT) else 0.0
         raise Missed("no warning after 1 s", saw, hint, credit=credit)
 
@@ -64,8 +64,8 @@ def _require_own_commands(run: Recording) -> None:
     """Raise Missed where all commands go to another robot."""
     strange = _publishers(run, STRANGER)
     if strange and not _publishers(run, OUT):
-        hint = ("Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A "
-                "remapping, from cmd_vel to the tower's own topic, sends it there.")
+        hint = ("Look at the graph: the watcher publishes on /cmd_vel, which belongs to another "
+                "robot. Remap cmd_vel to the tower's own topic.")
         saw = f"{strange[0].node} publishes on {STRANGER}"
         raise Missed(f"commands on {OUT}", saw, hint, credit=HALF, unsafe=True)
 

@@ -47,7 +47,7 @@ def reports(run: Recording) -> None:
         if names != ["battery", "motor"]:
             hint = "Each DiagnosticStatus has a name: battery for the one, motor for the other."
             if len(names) < 2:
-                hint = "Both in one array: msg.status = [battery, motor]."
+                hint = "Put both in one array: msg.status = [battery, motor]."
             raise Missed("the statuses battery and motor", ", ".join(names) or "none", hint)
     keeps_rate(run, TOPIC, 1.0)
 
@@ -66,7 +66,7 @@ def knows_what_is_stale(run: Recording) -> None:
 
 @health.check(3, after=knows_the_level)
 def gives_the_number(run: Recording) -> None:
-    """The values hold the last one received: `percent` of the battery (0 to 100), `celsius` of the motor."""
+    """The values contain the last reading: `percent` for the battery (0 to 100), `celsius` for the motor."""
     for one in _reports(run):
         if one.true in (None, STALE):
             continue
@@ -79,7 +79,7 @@ def gives_the_number(run: Recording) -> None:
 
 @health.check(2, after=knows_the_level)
 def stamps_it(run: Recording) -> None:
-    """The header of each array has the time at which it was made."""
+    """The header of each array is stamped with the time at which it was made."""
     for row in publishes(run, TOPIC):
         stamp = since_start(row.message.header.stamp)
         if not abs(row.stamp - stamp) < NOW:
@@ -127,16 +127,16 @@ def _compare(reports: list[PartReport]) -> None:
 
 def _level_hint(one: PartReport) -> str:
     if one.true == STALE:
-        return "The last number is no news any more: remember when it came, and ask how long ago that is."
+        return "The last value is out of date: store when it arrived, and check how long ago that was."
     if one.level == STALE and one.number == 0.0:
         return ("0 is a number, too: ask whether there is one, `name in self.numbers`, and not whether it is "
                 "true.")
     if one.level == STALE:
-        return "News did come: keep the time of the last one for each of the two, by the clock, in seconds."
+        return "New messages did arrive: store the time of the last one, in seconds, separately for each part."
     if one.number != round(one.number) and LEVELS[one.name](round(one.number)) == one.level:
         return "Compare the number as it came. To round is for the text, and comes after that."
     if one.name == "battery":
-        return ("percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one "
+        return ("percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: test for the worse one "
                 "first.")
     return "From 60 degrees on it is WARN, from 80 on ERROR, both with >=. Ask for the worse one first."
 
@@ -152,5 +152,5 @@ def _value_hint(one: PartReport) -> str:
     if one.value is None:
         return 'status.values = [KeyValue(key=..., value=...)], with the keys "percent" and "celsius".'
     if one.name == "battery" and abs(_number(one.value) * 100 - one.number) < EXACT:
-        return "In percent, please: 100 times the percentage of a BatteryState."
-    return "A KeyValue holds text, and nothing but the number: str(...) of it, without a unit."
+        return "That is not in percent: publish 100 times the percentage of the BatteryState."
+    return "A KeyValue's value is a string: use str(...) of the number alone, without a unit."

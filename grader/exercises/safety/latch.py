@@ -13,12 +13,12 @@ from sim.evidence import Call, Recording, Seconds
 
 SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when the button is silent
 LATELY = 0.25  # s, for which a command may be repeated
-LATCH = ("It released by itself. Remember in self.stopped that it was pressed: only /reset may make that "
-         "False again, and not a False from the button.")
-BROKEN = ("A broken cable counts as pressed: as long as the button is silent, refuse /reset. Not the timer "
-          "alone: reset, too, has to look at how old the button's last message is.")
+LATCH = ("The stop ended by itself. Store in self.stopped that the button was pressed: only /reset may "
+         "set that to False again, not a False from the button.")
+BROKEN = ("A broken cable counts as pressed: as long as the button is silent, refuse /reset. Check the age "
+          "of the button's last message in reset, too, not only in the timer.")
 
-latch = Exercise("latch", "An emergency stop that stays", world="yard", seconds=14,
+latch = Exercise("latch", "An emergency stop that latches", world="yard", seconds=14,
                  companions=[EmergencyOperator], seeds=(1, 2))
 
 
@@ -32,9 +32,10 @@ class Times(NamedTuple):
     cut: Seconds  # the button's last message before its cable was cut
 
 
-@latch.check(3, guess="Two subscriptions, a publisher for the robot, and create_service(Trigger, ...).")
+@latch.check(3,
+             guess="Create two subscriptions, a publisher for the robot, and create_service(Trigger, ...).")
 def stands_between(run: Recording) -> None:
-    """The node subscribes to /cmd_vel_raw and /emergency, serves /reset (Trigger) and publishes /cmd_vel."""
+    """The node subscribes to /cmd_vel_raw and /emergency, offers /reset (Trigger) and publishes /cmd_vel."""
     subscribes(run, RAW, TWIST)
     subscribes(run, BUTTON, "std_msgs/msg/Bool")
     serves(run, RESET, "std_srvs/srv/Trigger")
@@ -52,22 +53,22 @@ def lets_through(run: Recording) -> None:
             expected = f"{speeds_text(wanted)} on {OUT} at {command.stamp:.3g} s, as on {RAW}"
             hint = "Publish the command itself in the callback of /cmd_vel_raw, unless self.stopped."
             if command.stamp >= when.resumed:
-                hint = "It was reset, and the button is out: then commands should pass again."
+                hint = "It was reset, and the button is out: now commands should pass again."
             raise Missed(expected, saw, hint)
     for row in sent:
         if _is_free(row.stamp, when) and _is_free(row.stamp - SOON, when):
             lately = Window(row.stamp - LATELY, row.stamp).rows(raw)
             if not any(same(speeds(row), speeds(command), SAME) for command in lately):
-                hint = "Publish the commands as they come, and no other between them."
+                hint = "Publish the commands as they arrive, and no others between them."
                 expected = f"only what came on {RAW}, on {OUT} at {row.stamp:.3g} s"
                 raise Missed(expected, speeds_text(speeds(row)), hint)
 
 
 @latch.check(4, after=lets_through)
 def stops(run: Recording) -> None:
-    """When the button is pressed, the robot stops within 0.4 s, and stays stopped while it is in."""
+    """When the button is pressed, the robot stops within 0.4 s, and stays stopped while the button is in."""
     when = _times(run)
-    hint = "Publish an empty Twist as soon as the button says True, and pass nothing on while it is stopped."
+    hint = "Publish an empty Twist as soon as the button sends True, and pass nothing on while self.stopped."
     pressed = Window(when.press + BRAKING, min(when.release, requests_from_course(run, RESET)[0].requested))
     require_standing(run, pressed, f"{BRAKING:g} s after the button was pressed", hint)
 
@@ -90,12 +91,13 @@ def answers_resets(run: Recording) -> None:
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
             state = "'s cable broken" if broken else " released" if released else " still in"
-            hint = "response.success says whether it could be done; return the response. Ask self.pressed."
+            hint = ("Check self.pressed: response.success is whether the reset was possible. And return the "
+                    "response.")
             expected = f"success={right} at {call.requested:.3g} s, with the button{state}"
             granted_unsafely = call.response is not None and call.response.success
             raise Missed(expected, saw, BROKEN if broken else hint, unsafe=granted_unsafely)
     refused, release = requests_from_course(run, RESET)[0].requested, _times(run).release
-    hint = "A reset that is refused changes nothing: self.stopped stays True as long as the button is in."
+    hint = "A refused reset changes nothing: self.stopped stays True as long as the button is in."
     require_standing(run, Window(refused, release), f"after the refused reset at {refused:.3g} s", hint)
 
 
@@ -103,7 +105,7 @@ def answers_resets(run: Recording) -> None:
 def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stays where it is until a new command comes."""
     when, reset = _times(run), _granted(run).requested
-    hint = "The command from before the stop is out of date: a reset moves nothing by itself."
+    hint = "The command from before the stop is out of date: a reset must not move the robot by itself."
     why = f"from the reset at {reset:.3g} s to the next command"
     require_standing(run, Window(reset, when.resumed), why, hint)
 
@@ -112,10 +114,10 @@ def forgets_the_old_speed(run: Recording) -> None:
 def stops_without_the_button(run: Recording) -> None:
     """A button that is silent for 0.5 s counts as pressed: the robot stops within 1 s of its last message."""
     when = _times(run)
-    hint = "A broken cable can't say True. A timer looks at how long ago the button said something."
+    hint = "A broken cable can't send True. Let a timer check how long ago the button's last message arrived."
     resets = [call for call in requests_from_course(run, RESET) if call.requested > when.cut]
     asked = resets[0].requested if resets else when.cut + DEAF
-    require_standing(run, Window(when.cut + DEAF, asked), f"{DEAF:g} s after the button's last word", hint)
+    require_standing(run, Window(when.cut + DEAF, asked), f"{DEAF:g} s after the button's last message", hint)
     hint = BROKEN if any(call.response and call.response.success for call in resets) else LATCH
     require_standing(run, Window(asked, run.ended.stamp), "until it is reset", hint)
 

@@ -10,9 +10,9 @@ from grader.exercise import Exercise
 from sim.evidence import Recording
 
 ENOUGH = 8  # of the wrong ones
-THE_GIVEN = "The function that a test is given is the one to test: call that one, and no copy of yours."
-TOO_STRICT = ("Ask no more than the contract says. Floats are rounded: compare with math.isclose(a, b, "
-              "abs_tol=1e-3), or a <= b + 1e-3.")
+THE_GIVEN = "Test the function that your test is given: call that one, not a copy of your own."
+TOO_STRICT = ("Require no more than the contract does. Floats are rounded: compare with math.isclose(a, "
+              "b, abs_tol=1e-3), or a <= b + 1e-3.")
 NUMBERS = "std_msgs/msg/Float64MultiArray"
 
 mutants = Exercise("mutants", "Tests that catch mutants", seconds=12, companions=workshop, seeds=(1, 2),
@@ -38,13 +38,13 @@ def runs_the_tests(run: Recording) -> None:
 
 @mutants.check(2, after=runs_the_tests)
 def passes_what_is_right(run: Recording) -> list[CandidateVerdict]:
-    """All three right candidates pass, with tests that catch at least one of the others."""
+    """All three correct candidates pass, with tests that catch at least one of the others."""
     found = _verdicts(run)
     for one in found:
         if one.right and not one.passed:
             raise Missed(f"candidate {one.number} passing: it is right", "failed", TOO_STRICT)
     if all(one.passed for one in found):
-        hint = "A test that asserts nothing passes everything. What must hold of the speed you get?"
+        hint = "A test that asserts nothing passes everything. What must be true of the speed you get?"
         raise Missed("a candidate that fails, of ten wrong ones", "all passed", hint)
     return found
 
@@ -54,8 +54,9 @@ def catches_what_is_wrong(run: Recording, found: list[CandidateVerdict]) -> None
     """At least eight of the ten wrong candidates are caught."""
     caught = sum(not one.passed for one in found if not one.right)
     if caught < ENOUGH:
-        hint = ("Go through the contract line by line: each line is a test, and each needs its own places. "
-                "Near, far, just on the edge, backwards, inf and nan, for both numbers. Too slow is wrong, "
+        hint = ("Go through the contract line by line: write a test for each line, with its own values: "
+                "near, far, exactly on the edge, backwards, inf and nan, for both numbers. Too slow is "
+                "wrong, "
                 "too.")
         expected = f"{ENOUGH} or more of {WRONG} wrong candidates caught"
         raise Missed(expected, f"{caught}", hint, credit=caught / WRONG)

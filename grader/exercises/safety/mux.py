@@ -12,8 +12,8 @@ from sim.evidence import Message, Recording, Seconds
 
 OLD, BRAKING = 0.68, 1.0  # s: certainly older than the time-out; to stop
 STEP, STEADY, BEGIN, SILENT = 0.1, 0.25, 0.5, 0.3  # s
-ZERO = "A 0 of the joystick is a command, too: ask how old it is, not how fast."
-FIRST = "Look at the joystick first: while it is young, the navigator has to wait."
+ZERO = "A 0 from the joystick is a command, too: check how old it is, not how fast."
+FIRST = "Check the joystick first: while its command is recent, the navigator has to wait."
 
 mux = Exercise("mux", "Two drivers, one robot", world="yard", seconds=15, companions=[Drivers], seeds=(1, 2))
 
@@ -35,7 +35,7 @@ class MuxSample(NamedTuple):
         return (self.joy if topic == JOY else self.nav) or (0.0, 0.0)
 
 
-@mux.check(3, guess="Two subscriptions, one for each driver, and a publisher for the robot.")
+@mux.check(3, guess="Create two subscriptions, one for each driver, and a publisher for the robot.")
 def stands_between(run: Recording) -> None:
     """The node subscribes to /cmd_vel_joy and /cmd_vel_nav, and publishes Twist messages on /cmd_vel."""
     for topic in (JOY, NAV):
@@ -48,13 +48,14 @@ def passes_the_navigator(run: Recording) -> None:
     """Before the joystick is touched, the robot obeys the navigator."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.stamp < first]
-    hint = "Remember the navigator's last command and when it came; younger than 0.5 s, and it goes out."
+    hint = ("Store the navigator's last command and when it arrived; while it is less than 0.5 s old, "
+            "publish it.")
     _compare(run, samples, NAV, hint)
 
 
 @mux.check(6, after=passes_the_navigator)
 def joystick_wins(run: Recording) -> None:
-    """While the joystick publishes, it alone counts, even if it sends 0."""
+    """While the joystick publishes, only its commands count, even if it sends 0."""
     samples = [sample for sample in _samples(run) if sample.joy]
     stops = [sample for sample in samples if sample.joy == (0.0, 0.0)]
     try:
@@ -70,7 +71,7 @@ def gives_back(run: Recording) -> None:
     """When the joystick has been silent for 0.5 s, the navigator drives again."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.joy_is_old]
-    hint = "The joystick's last command never gets old: compare the time since it came with 0.5 s."
+    hint = "The joystick's last command never expires: compare the time since it arrived with 0.5 s."
     _compare(run, [sample for sample in samples if sample.stamp > first], NAV, hint)
 
 
@@ -78,8 +79,8 @@ def gives_back(run: Recording) -> None:
 def stands_without_both(run: Recording) -> None:
     """When both have fallen silent, the robot stops within 1 s, until one of them publishes again."""
     sent = sorted(row.stamp for topic in (JOY, NAV) for row in from_course(run, topic))
-    hint = ("Commands get old, those of both drivers. Look at their ages each time, by the clock, and send "
-            "an empty Twist where none is younger than 0.5 s.")
+    hint = ("Both drivers' commands expire. Check their ages every time, by the clock, and publish an empty "
+            "Twist when neither is less than 0.5 s old.")
     for begin, end in zip(sent, [*sent[1:], run.ended.stamp], strict=True):
         if end - begin > BRAKING:
             why = f"{BRAKING:g} s after the last command, at {begin:.3g} s"

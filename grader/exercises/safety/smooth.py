@@ -49,14 +49,14 @@ class Response(NamedTuple):
 
 @smooth.check(2)
 def responds_to_each(run: Recording) -> None:
-    """With each command on /cmd_vel_raw, one comes on /cmd_vel."""
+    """For each command on /cmd_vel_raw, one is published on /cmd_vel."""
     requests, sent = from_course(run, RAW, at_least=20), publishes(run, OUT, TWIST, at_least=5)
     if not len(requests) - 2 <= len(sent) <= len(requests):
         hint = "Publish once in the callback of /cmd_vel_raw, each time it is called."
         raise Missed(f"{len(requests)} messages on {OUT}", f"{len(sent)}", hint)
     for request, row in _answered(requests, sent):
         if not 0.0 <= row.stamp - request.stamp < SOON:
-            hint = "Publish in the callback of /cmd_vel_raw: who drives can't wait for the answer."
+            hint = "Publish in the callback of /cmd_vel_raw: a driver can't wait for the answer."
             expected = f"the answer to the command of {request.stamp:.3g} s within {SOON:g} s"
             raise Missed(expected, f"it comes at {row.stamp:.3g} s", hint)
 
@@ -69,12 +69,12 @@ def gets_there(run: Recording) -> None:
             abs(pair.sent) > abs(pair.right) and pair.sent * pair.right > 0 and pair.requested != pair.right
         )
         if pair.right and steps >= LONG and not beyond:
-            _same(pair, pair.right, "Add the step again and again, up to the request or the limit.")
+            _same(pair, pair.right, "Keep adding the step, up to the request or the limit.")
 
 
 @smooth.check(2, after=gets_there)
 def keeps_the_limits(run: Recording) -> None:
-    """Never more than 0.3 m/s and 1 rad/s, in either direction."""
+    """The speeds never exceed 0.3 m/s and 1 rad/s, in either direction."""
     for pair in _pairs(run):
         if not abs(pair.sent) <= pair.axis.most + NEAR:
             saw = f"{pair.sent:.3g} {pair.axis.unit} at {pair.stamp:.3g} s"
@@ -96,19 +96,21 @@ def speeds_up_gently(run: Recording) -> None:
 
 @smooth.check(2, after=gets_there)
 def stops_at_once(run: Recording) -> None:
-    """Slowing down takes no time: a request of 0 is obeyed at once."""
+    """Slowing down is not limited: a request of 0 is obeyed at once."""
     for pair in _pairs(run):
         if pair.requested == 0.0:
-            hint = "A limit on braking makes the way to stop longer: step only where the speed grows."
+            hint = ("A limit on braking makes the stopping distance longer: limit the step only when the "
+                    "speed grows.")
             _same(pair, 0.0, hint, unsafe=True)
 
 
 @smooth.check(2, after=gets_there)
 def takes_no_nonsense(run: Recording) -> None:
-    """A request that is no finite number counts as 0, and the next valid one is obeyed again."""
+    """A request that isn't a finite number counts as 0, and the next valid one is obeyed again."""
     for pair in _pairs(run):
         if not math.isfinite(pair.requested):
-            hint = "min and max let NaN through, or make the limit of it. Ask math.isfinite(requested) first."
+            hint = ("min and max let NaN through, or turn it into the limit. Check math.isfinite(requested) "
+                    "first.")
             _same(pair, 0.0, hint, unsafe=True)
 
 
@@ -144,7 +146,7 @@ def _steady(run: Recording) -> Iterator[tuple[Response, int]]:
 
 def _why_jerky(pair: Response) -> str:
     if pair.sent * pair.before < 0:
-        return "From forwards to backwards it goes through 0: take 0 as the speed to step away from."
+        return "From forwards to backwards the speed passes through 0: start the step from 0."
     if pair.sent < 0:
-        return "Backwards is as fast as forwards: the sign of the request decides which way the step goes."
-    return "Remember what you sent last, and go at most one step beyond it."
+        return "The same limits apply backwards: the sign of the request decides the direction of the step."
+    return "Store the speed you sent last, and go at most one step beyond it."

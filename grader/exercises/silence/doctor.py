@@ -13,14 +13,15 @@ GIVEN_AWAY = 2  # right answers, or systems fixed, that earn nothing: they may b
 # The parameter that fixes a fault; where there is no sensor, none does.
 SETTINGS = {"reliability", "durability", "deadline"}
 CURES = {"name": "topic", "mute": "running"} | {name: name for name in SETTINGS}
-CHANGES_ALL = "If you change everything, you fix by chance, and break what was right. Find the fault first."
+CHANGES_ALL = ("Changing everything fixes the fault only by chance, and breaks what was right. Find the "
+               "fault first.")
 WHY = {
-    "name": "A publisher has nearly this name. Compare with all topics: get_topic_names_and_types().",
-    "missing": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
+    "name": "A publisher uses nearly this name. Compare it with all topics: get_topic_names_and_types().",
+    "missing": "get_publishers_info_by_topic(topic) is empty, and no other topic has a similar name.",
     "reliability": "The sensor offers best effort, and the display requests reliable.",
     "durability": "The display requests transient local, and the sensor is volatile.",
-    "deadline": "The display requests a shorter deadline than the sensor offers; none at all is longest.",
-    "mute": "All settings fit, and still nothing comes: the sensor is there, and doesn't speak.",
+    "deadline": "The display requests a shorter deadline than the sensor offers; no deadline is the longest.",
+    "mute": "All settings match, and still nothing arrives: the sensor is there, but doesn't publish.",
 }
 
 doctor = Exercise("doctor", "A doctor for silent systems", seconds=9, companions=silent_systems, seeds=(1, 2))
@@ -44,20 +45,21 @@ class Diagnosed(NamedTuple):
 @doctor.check(2)
 def answers_complaints(run: Recording) -> None:
     """The node subscribes to /complaint, and publishes String messages on /diagnosis."""
-    with hinting("The callback of /complaint is `on_message`: it publishes what `examine` returns."):
+    with hinting("`on_message`, the callback of /complaint, publishes what `examine` returns."):
         subscribes(run, "/complaint", STRING)
         publishes(run, "/diagnosis", STRING)
 
 
 @doctor.check(10, after=answers_complaints, hints={
-    "One message for each complaint: return as soon as the fault is found.":
+    "Publish one message for each complaint: return as soon as you have found the fault.":
         lambda run, one: len(one.words) > 1,
-    "The words are {faults}.":
+    "Use one of these words: {faults}.":
         lambda run, one: not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)},
-    "Publish the topic of the complaint, a colon and the word; `on_message` does it if examine returns.":
+    "Publish the complaint's topic, a colon and the word; `on_message` does so if examine returns the word.":
         lambda run, one: not one.words,
-    "Settings that differ may fit: a sensor may offer more than the display requests. "
-    "Here it is this: {why}": lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]},
+    "Different settings may still match: a sensor may offer more than the display "
+    "requests. Here the fault is: {why}":
+        lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]},
     "{why}": lambda run, *about: about and {"why": WHY[about[0].case.fault]},
 })
 def names_the_faults(run: Recording) -> None:
@@ -74,14 +76,14 @@ def names_the_faults(run: Recording) -> None:
 
 @doctor.check(8, after=answers_complaints)
 def fixes_the_faults(run: Recording) -> None:
-    """It fixes the fault, by that alone: every display receives from its sensor again, if there is one."""
+    """It fixes only the fault: every display receives from its sensor again, if there is one."""
     systems = [one for one in _systems(run) if one.case.fault != "missing"]
     broken = [one for one in systems if not one.receives or one.idle]
     if broken:
         first, right = broken[0], len(systems) - len(broken)
         done = f"{', '.join(first.changes)} was set"
         if not first.changes:
-            done = "nothing was set at the display, or it was refused"
+            done = "nothing was set at the display, or the change was refused"
         expected = f"the display of {first.case.topic} receiving again: the fault is “{first.case.fault}”"
         saw = f"it receives {'again' if first.receives else 'nothing'}, and {done}; "
         saw += f"{right} of {len(systems)} were fixed so"
@@ -91,7 +93,7 @@ def fixes_the_faults(run: Recording) -> None:
 
 @doctor.check(2, after=fixes_the_faults)
 def touches_nothing_else(run: Recording) -> None:
-    """It sets only what is at fault: nothing at a display without a sensor, and no other parameter."""
+    """It sets only what is wrong: nothing on a display without a sensor, and no other parameter."""
     for one in _systems(run):
         if one.idle:
             needed = CURES.get(one.case.fault, "")
@@ -126,10 +128,10 @@ def _why_broken(one: Diagnosed) -> str:
     """What to do where a display still receives nothing."""
     fault = one.case.fault
     if fault == "mute":
-        return "The sensor has the parameter `running`: set it to True, at the sensor and not at the display."
+        return "The sensor has the parameter `running`: set it to True, on the sensor and not on the display."
     if CURES[fault] in one.changes:
         return {
             "name": "Set `topic` to the name that the sensor uses, with its namespace.",
-            "deadline": "Set `deadline` to what the sensor offers or more, in seconds; 0.0 is no limit.",
-        }.get(fault, f"Set `{CURES[fault]}` to what the sensor offers: its name in small letters.")
-    return f"Set `{CURES[fault]}` of the display to what the sensor offers. A sensor's are fixed."
+            "deadline": "Set `deadline` to what the sensor offers or more, in seconds; 0.0 is no deadline.",
+        }.get(fault, f"Set `{CURES[fault]}` to what the sensor offers: its name in lower case.")
+    return f"Set `{CURES[fault]}` of the display to what the sensor offers. The sensor's settings are fixed."

@@ -16,23 +16,25 @@ LATELY = 0.3  # s; each publisher of the course publishes every 0.2 s
 NONE = "none"
 
 WRONG = {
-    "Publish once in the callback, all names in one message: ', '.join(names).":
+    "Publish once in the callback, with all names in one message: ', '.join(names).":
         lambda run, one: len(one.answers) > 1,
-    "The callback is called with each question: publish in it, whatever the answer is.":
+    "The callback is called for each question: publish in it every time, whatever the answer.":
         lambda run, one: not one.answers,
-    "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).":
+    "These nodes subscribe to it. To find the publishers: get_publishers_info_by_topic(topic).":
         lambda run, one: (names := set(_names(one))) and not names <= set(one.speakers)
         and names <= {end.node for end in run.graph.subscriptions(one.topic)},
-    f"An empty list of names gives an empty text: publish “{NONE}” then.": lambda run, one: not _names(one),
-    "A node with two publishers is in the list twice: make a set of the names first.":
+    f"An empty list of names makes an empty string: publish “{NONE}” "
+    "instead.": lambda run, one: not _names(one),
+    "A node with two publishers is in the list twice: put the names in a set first.":
         lambda run, one: len(_names(one)) > len(set(_names(one))),
-    "The names are right, and their order isn't: sorted(...) puts them in order.":
+    "The names are right, but their order isn't: use sorted(...).":
         lambda run, one: set(_names(one)) == set(one.speakers),
-    "The full name begins with the namespace: node_namespace, a slash, node_name. In the namespace / itself "
-    "there is only one slash.": lambda run, one: _bare(_names(one)) == _bare(one.speakers),
-    "A node is missing. Ask ROS again at each question, because nodes come and go; and take all of them.":
+    "The full name begins with the namespace: node_namespace, a slash, node_name. In the namespace / there "
+    "is only one slash.": lambda run, one: _bare(_names(one)) == _bare(one.speakers),
+    "A node is missing. Look the topic up again for each question, because nodes come and go; and list all "
+    "of them.":
         lambda run, one: set(_names(one)) < set(one.speakers),
-    "Ask about the topic that the question names: msg.data.": otherwise,
+    "Look up the topic that the question names: msg.data.": otherwise,
 }
 
 graph = Exercise("graph", "Who publishes there?", seconds=8, companions=speakers, seeds=(1, 2))
@@ -76,7 +78,7 @@ def answers_none(run: Recording) -> None:
 
 @graph.check(3, after=names_the_publishers, hints=WRONG)
 def names_nodes_that_joined(run: Recording) -> None:
-    """A node that joins while you watch is named from then on, and not before."""
+    """A node that joins later is named from then on, and not before."""
     before, since = _questions(run.during(0.0, LATE)), _questions(run.during(LATE, run.ended.stamp))
     earlier = {one.topic: one.speakers for one in before}
     grown = [one for one in since if one.speakers != earlier.get(one.topic, one.speakers)]

@@ -25,7 +25,7 @@ joystick = Exercise("joystick", "A joystick that falls silent", world="yard", se
 @joystick.check(2)
 def stands_between(run: Recording) -> None:
     """The node subscribes to /joystick, and publishes Twist messages on /cmd_vel."""
-    with hinting("The joystick talks on /joystick, and the robot listens to /cmd_vel."):
+    with hinting("The joystick publishes on /joystick, and the robot subscribes to /cmd_vel."):
         subscribes(run, RAW, TWIST)
         publishes(run, SENT, TWIST, at_least=10)
 
@@ -34,12 +34,12 @@ def stands_between(run: Recording) -> None:
 def passes_commands_on(run: Recording) -> None:
     """While the joystick publishes, the robot gets its commands, at most a tenth of a second later."""
     (begin, _), *_ = _silences(run)
-    _alike(run, 0.5, begin, "Remember the last command in the callback, and publish it in the timer.")
+    _alike(run, 0.5, begin, "Store the last command in the callback, and publish it in the timer.")
 
 
 @joystick.check(7, after=passes_commands_on)
 def stops_when_it_falls_silent(run: Recording) -> None:
-    """When the joystick falls silent, zeros go out within 0.4 s, and the robot stops within 1 s."""
+    """When the joystick falls silent, zeros are published within 0.4 s, and the robot stops within 1 s."""
     for begin, end in _silences(run):
         speed = top_speed(run.during(begin + STOPPED, end).path).linear
         for moment, sent in _looks(run, begin + SOON, end):
@@ -52,7 +52,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
 
 @joystick.check(5, after=stops_when_it_falls_silent)
 def requests_a_deadline(run: Recording) -> None:
-    """Its subscription requests a deadline of 0.3 s or less, and the joystick can keep it."""
+    """Its subscription requests a deadline of 0.3 s or less, which the joystick can meet."""
     shortest = _deadline(run)
     if not OFFERED - EDGE <= shortest <= LONGEST + EDGE:
         saw = "none" if shortest == math.inf else f"{shortest:g} s"
@@ -63,7 +63,7 @@ def requests_a_deadline(run: Recording) -> None:
 @joystick.check(3, after=stops_when_it_falls_silent)
 def goes_on_afterwards(run: Recording) -> None:
     """When the joystick publishes again, the robot gets its commands again."""
-    guess = "A stop holds until the next command comes: then that one counts."
+    guess = "A stop lasts until the next command arrives: from then on publish that one."
     ends = [end for _, end in _silences(run)]
     for end, begin in itertools.zip_longest(ends, [begin for begin, _ in _silences(run)][1:]):
         _alike(run, end + LAG, run.ended.stamp - STEP if begin is None else begin, guess)
@@ -96,7 +96,7 @@ def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
             wrong.append((moment, _last(raw, moment), sent))
     if len(wrong) > 0.05 * len(looks):
         moment, wanted, sent = wrong[0]
-        raise Missed(f"{_text(wanted)} at {moment:.3g} s, as the joystick asks", _text(sent), guess=guess)
+        raise Missed(f"{_text(wanted)} at {moment:.3g} s, as the joystick commands", _text(sent), guess=guess)
 
 
 def _last(messages: list[Message], moment: Seconds) -> Speeds | None:
@@ -117,9 +117,10 @@ def _deadline(run: Recording) -> Seconds:
 
 def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
     if _deadline(run) > LONGEST + EDGE:
-        return f"A late message isn't reported unless a deadline is requested. {PROFILE}"
+        return f"A late message isn't reported unless you request a deadline. {PROFILE}"
     if not run.during(begin, end).messages(SENT):
-        return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
+        return "Say stop, and keep saying it: let the timer publish all the time, zeros too."
     return ("The callback for a missed deadline belongs to the subscription: "
-            "event_callbacks=SubscriptionEventCallbacks(deadline=self.too_late). It makes the command "
-            "zeros, all of it.")
+            "event_callbacks=SubscriptionEventCallbacks(deadline=self.too_late). In it, set the whole "
+            "command to "
+            "zero.")

@@ -16,18 +16,18 @@ late = Exercise("late", "Latecomers", seconds=9, companions=[LatchedMap, LateSub
 @late.check(2)
 def subscribes_to_the_map(run: Recording) -> None:
     """The node subscribes to /map."""
-    with hinting("The map comes on /map."):
+    with hinting("The map is published on /map."):
         subscribes(run, "/map", GRID)
 
 
 @late.check(5, after=subscribes_to_the_map, hints={
-    "That is how many cells are known. A free cell is 0.":
+    "That is the number of known cells. A free cell is 0.":
         lambda run, count: count == sum(cell >= 0 for cell in _cells(run)),
-    "That is how many are occupied, 100. A free cell is 0.":
+    "That is the number of occupied cells, 100. A free cell is 0.":
         lambda run, count: count == sum(cell > 0 for cell in _cells(run)),
-    "That is how many cells there are. A free one is 0, an occupied one 100, an unknown one -1.":
+    "That is the number of all cells. A free one is 0, an occupied one 100, an unknown one -1.":
         lambda run, count: count == len(_cells(run)),
-    "Count the cells of msg.data that are 0; -1 means that nothing is known there.": otherwise,
+    "Count the cells of msg.data that are 0; -1 means unknown.": otherwise,
 })
 def receives_the_latched_map(run: Recording) -> None:
     """It receives the map that was published before it started: its free cells (Int32) are on /free."""
@@ -42,12 +42,12 @@ def receives_the_latched_map(run: Recording) -> None:
 
 @late.check(2, after=receives_the_latched_map)
 def publishes_once_for_each_map(run: Recording) -> None:
-    """Each map gets one message, when it comes, and no other is sent."""
+    """For each map one message is published, when the map arrives, and no others."""
     sent, free = [row.message.data for row in run.messages("/free")], _truth(run)
     if sent != free:
-        hint = "The callback is called with every map, and each of them has its own count."
+        hint = "The callback is called with every map: count each one anew."
         if len(sent) > len(free):
-            hint = "Publish in the map's callback and nowhere else: who comes later is the middleware's care."
+            hint = "Publish in the map's callback and nowhere else: the middleware takes care of latecomers."
         expected = f"{len(free)} messages: {', '.join(map(str, free))}"
         raise Missed(expected, f"{len(sent)}: {', '.join(map(str, sent[:5]))}", hint)
 
@@ -74,13 +74,13 @@ def _received(run: Recording, window: tuple[Seconds, Seconds], free: int) -> Non
     got = [row.message.data for row in run.during(*window).messages("/receipt") if row.from_course]
     if got == [free]:
         return
-    expected = f"{free}, and nothing else, for the visitor who comes at {window[0]:g} s"
+    expected = f"{free}, and nothing else, for the visitor that starts at {window[0]:g} s"
     if free in got:
-        hint = "The depth says how many old messages are kept for latecomers: here one."
+        hint = "The depth is how many old messages are stored for latecomers: here you need one."
         if len(set(got)) == 1:
-            hint = "Publish when a map comes, and not again and again."
+            hint = "Publish only when a map arrives, not again and again."
         raise Missed(expected, ", ".join(map(str, got)), hint)
-    guess = "What was sent is kept for latecomers if the publisher has durability TRANSIENT_LOCAL."
+    guess = "Give the publisher durability TRANSIENT_LOCAL: then its messages are stored for latecomers."
     raise Missed(expected, ", ".join(map(str, got)) or "nothing", guess=guess)
 
 

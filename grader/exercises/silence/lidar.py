@@ -36,7 +36,7 @@ def subscribes_to_scans(run: Recording) -> None:
 
 @lidar.check(3, after=subscribes_to_scans)
 def receives_every_scan(run: Recording) -> list[Counted]:
-    """It receives the scans: with each that comes, one count (Int32) goes out on /missed."""
+    """It receives the scans: for each one that arrives, one count (Int32) is published on /missed."""
     counts = publishes(run, "/missed", COUNT)
     # Each subscribing node loses other messages; one of the nodes counts.
     crossings = [one for one in run.crossings if one.topic == "/scan"]
@@ -46,27 +46,27 @@ def receives_every_scan(run: Recording) -> list[Counted]:
     _requires_listening(run, max((one.sent for one in listeners), default=0))
     with hinting("Publish in the scan's callback, each time it is called."):
         if not arrived - 1 <= len(counts) <= arrived:  # one may be on its way at the end
-            expected = "one message on /missed for each scan that came"
-            raise Missed(expected, f"{len(counts)} messages, and {arrived} scans came")
+            expected = "one message on /missed for each scan that arrived"
+            raise Missed(expected, f"{len(counts)} messages for {arrived} scans")
         return _counted(run)
 
 
 @lidar.check(8, after=receives_every_scan, hints={
-    "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost.":
+    "It stays 0. When a scan was lost, two successive stamps are more than scan_time apart.":
         lambda run, counted: not any(one.count for one in counted),
-    "Each gap counts as one, but in a long gap several got lost: gap / scan_time - 1.":
+    "You count each gap as one, but in a long gap several scans were lost: gap / scan_time - 1.":
         lambda run, counted: counted[-1].count == len({one.lost for one in counted}) - 1,
-    "Two scans in a row are one scan_time apart, and nothing got lost: take 1 away from each.":
+    "When two scans are one scan_time apart, nothing was lost: subtract 1 from each gap.":
         lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1,
-    "That is how many came. Lost are those that should have come in between.":
+    "That is how many scans arrived. Count those that should have arrived in between.":
         lambda run, counted: all(b.count - a.count == 1 for a, b in itertools.pairwise(counted)),
-    "One scan in 0.1 s is another lidar: how long one takes is in each scan, scan.scan_time.":
+    "One scan every 0.1 s is a different lidar: each scan contains how long it takes, scan.scan_time.":
         lambda run, counted: counted[-1].count == counted[0].count + sum(
             round((b.measured - a.measured) / 0.1) - 1 for a, b in itertools.pairwise(counted)),
-    "That is what was lost before the last scan alone: add it up, self.missed += ...":
+    "That is only what was lost just before the last scan: add it up, self.missed += ...":
         lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost,
-    "How many scans fit into a gap is its seconds divided by scan.scan_time, rounded. The gap is that "
-    "between the two header stamps: scans also come early or late.": otherwise,
+    "The number of scans that fit into a gap is its length divided by scan.scan_time, rounded. Take "
+    "the gap between the two header stamps, because scans also arrive early or late.": otherwise,
 })
 def counts_all(run: Recording, counted: list[Counted]) -> None:
     """At the end the count is how many scans were lost since the first one."""
@@ -81,7 +81,7 @@ def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> 
     """The count is right after every scan."""
     for one in counted:
         if one.count != one.lost:
-            hint = "Count at each scan what was lost since the one before, and add it to the sum."
+            hint = "At each scan, count what was lost since the previous one, and add it to the total."
             raise Missed(f"{one.lost} lost until {one.stamp:.3g} s", f"{one.count}", hint)
 
 
@@ -90,7 +90,7 @@ def _requires_listening(run: Recording, sent: int) -> None:
     begun = run.started_at + BEGUN
     due = [row for row in run.messages("/scan") if begun < row.stamp < worked_until(run)]
     if sent < MOST * len(due):
-        saw = f"{sent} of {len(due)} scans were sent to it: then the subscription was gone"
+        saw = f"{sent} of {len(due)} scans were sent to it, and then the subscription was gone"
         hint = "Create the subscription in __init__, keep it, and never destroy it."
         raise Missed("a subscription to /scan from start to end", saw, hint)
 
@@ -104,7 +104,8 @@ def _counted(run: Recording) -> list[Counted]:
     for count, row in enumerate(run.messages("/missed")):
         number = bisect.bisect_right(sent, row.stamp - SOONEST + EDGE) - 1
         if number < 0 or row.stamp - sent[number] > LATEST + EDGE:
-            raise Missed("a count when a scan comes", f"one at {row.stamp:.3g} s, when none came")
+            raise Missed("a count only when a scan arrives",
+                         f"one at {row.stamp:.3g} s, when no scan arrived")
         first = number if count == 0 else first
         found.append(Counted(row.stamp, scans[number], number - first - count, row.message.data))
     return found

@@ -17,7 +17,7 @@ NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and tur
 COMPLAINT = re.compile(
     "error:|command not found|is not a command|can't be read|populate field|is invalid|is not what it looks"
 )
-STRAIGHT = "A speed ahead without a turn leads to a wall: give both, linear.x and angular.z."
+STRAIGHT = "Driving ahead without turning ends at a wall: give both linear.x and angular.z."
 WIDE = "Radius = speed / turn. For 0.5 m at 0.3 m/s, how many rad/s is that?"
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
@@ -34,12 +34,12 @@ def can_be_read(run: Recording) -> None:
         wrong = next((line for line in printed if COMPLAINT.search(line)), "")
         if wrong:
             raise Missed(missed.expected, f"“{wrong}”", _how_to_read(wrong)) from None
-        missed.guess = "`ros2 topic pub` publishes; `echo` and `hz` listen."
+        missed.guess = "`ros2 topic pub` publishes; `echo` and `hz` subscribe."
         raise
     nodes = [end.node for end in run.graph.publishers(COMMANDS) if not end.from_course]
     if f"/{OWN_NAME}" not in run.graph.nodes:
-        hint = 'The answer is a text: return "ros2 topic pub ...".'
-        raise Missed("a text that begins with ros2, and no node", f"the node {nodes[0]}", hint)
+        hint = 'The answer is a string: return "ros2 topic pub ...".'
+        raise Missed("a string that begins with ros2, and no node", f"the node {nodes[0]}", hint)
 
 
 @pub.check(3, after=can_be_read)
@@ -47,14 +47,15 @@ def comes_often_enough(run: Recording) -> None:
     """The commands come often enough, from start to end, that the robot never stops in between."""
     pause, since = longest_pause(stamps(run.messages(COMMANDS)))
     if pause > TIMEOUT or len(run.messages(COMMANDS)) < 2:
-        expected = f"a command every {TIMEOUT:g} s or more often: without one the robot stops"
+        expected = f"a command every {TIMEOUT:g} s or more often: without commands the robot stops"
         saw = f"{pause:.3g} s without one, from {since:.3g} s on" if pause else "one command"
-        hint = "Without --rate a message goes out once a second, with --once a single time. Give --rate 10."
+        hint = "Without --rate, `pub` publishes once a second; with --once, a single time. Give --rate 10."
         raise Missed(expected, saw, hint, picture="topics")
     last = stamps(run.messages(COMMANDS))[-1]
     if last + 2 * TIMEOUT < run.seconds and not _is_round(run):
-        hint = "Without --times it publishes until it is stopped; with it, once round has to be done before."
-        raise Missed("commands to the end, or once round", f"the last one at {last:.3g} s", hint,
+        hint = ("Without --times it publishes until it is stopped; with --times, give enough messages for "
+                "the whole circle.")
+        raise Missed("commands to the end, or once around", f"the last one at {last:.3g} s", hint,
                      credit=tenths(last / run.seconds))
 
 
@@ -66,8 +67,8 @@ def drives_the_circle(run: Recording) -> None:
     far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
     turned, length = _turned(run), traveled(run)
     if max(far) > NEAR or not _is_round(run):
-        way = f"a way of {math.tau * RADIUS:.2f} m round a circle"
-        saw = f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
+        way = f"a path of {math.tau * RADIUS:.2f} m around a circle"
+        saw = f"a path of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
         saw += f"{max(far):.2f} m off the circle"
         hint = _why_no_circle(run, turned)
         raise Missed(f"{way}, which is a turn of 360 degrees to the left", saw, hint, picture="path")
@@ -75,12 +76,12 @@ def drives_the_circle(run: Recording) -> None:
 
 @pub.check(2, after=drives_the_circle)
 def drives_at_the_speed(run: Recording) -> None:
-    """It does so at 0.3 m/s."""
+    """It drives at 0.3 m/s."""
     speeds = [speed for _, speed in series(run, COMMANDS, "linear.x")]
     wrong = next((speed for speed in speeds if not abs(speed - SPEED) < 0.01), None)
     if wrong is not None:
         turn = f"{SPEED / RADIUS:g} rad/s"
-        hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m wants {turn}."
+        hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m needs {turn}."
         raise Missed(f"linear.x {SPEED:g}", f"{wrong:g}", hint)
 
 
@@ -98,32 +99,34 @@ def _is_round(run: Recording) -> bool:
 def _how_to_read(wrong: str) -> str:
     """What to do about an error message of ros2."""
     if "unrecognized arguments" in wrong:
-        return ("The values are one word for the terminal: put quotes round them, '{...}', as they have "
-                "spaces.")
+        return ("The shell must see the values as one word: put quotes around them, '{...}', because they "
+                "contain spaces.")
     if "needs a space" in wrong:
-        return "YAML wants a space after each colon: {x: 0.3}, not {x:0.3}."
+        return "YAML needs a space after each colon: {x: 0.3}, not {x:0.3}."
     if "populate field" in wrong:
         return "`ros2 interface show geometry_msgs/msg/Twist` shows the fields of the message."
     if "type is invalid" in wrong:
         return "A type has three parts, package/msg/Name: `ros2 topic info /cmd_vel` shows it."
     if "command not found" in wrong or "is not a command" in wrong:
-        return 'The text begins with the word ros2, and is returned: return "ros2 topic pub ...".'
-    return "Read the complaint; `ros2 topic pub --help` shows what the command takes, and in which order."
+        return 'Return a string that begins with the word ros2: return "ros2 topic pub ...".'
+    return ("Read the error; `ros2 topic pub --help` shows which arguments the command takes, and in which "
+            "order.")
 
 
 def _why_no_circle(run: Recording, turned: float) -> str:
     """The usual reasons for another path."""
     turns = [turn for _, turn in series(run, COMMANDS, "angular.z")]
     if not any(turns):
-        return "It never turns: angular.z is the turn, in rad/s. (angular.x and y do nothing on the ground.)"
+        return ("It never turns: angular.z is the turning speed, in rad/s. (angular.x and y do nothing on the "
+                "ground.)")
     if turned < 0:
         return "It turns right. A positive angular.z turns left."
     if not any(speed for _, speed in series(run, COMMANDS, "linear.x")):
-        return "It turns on the spot: linear.x is the speed ahead."
+        return "It turns on the spot: linear.x is the forward speed."
     pause, _ = longest_pause(stamps(run.messages(COMMANDS)))
     if pause > TIMEOUT:
-        return "It stops between two commands, as the line above says: that one first."
+        return "It stops between two commands, as the line above says: fix that one first."
     last = stamps(run.messages(COMMANDS))[-1]
     if last < run.ended.stamp - 2 * TIMEOUT:
-        return f"The last command came at {last:.3g} s: without --times it goes on until it is stopped."
+        return f"The last command came at {last:.3g} s: without --times it continues until it is stopped."
     return WIDE

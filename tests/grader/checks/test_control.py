@@ -187,7 +187,7 @@ def test_efforts_have_limits():
         "data on /cart_effort from -3 to 3 N",
         "-3.5 N at 0.2 s; 1 of 2 are outside",
     )
-    assert miss.hint == "Cut it before you publish it: max(-3, min(3, effort))."
+    assert miss.hint == "Clip it before you publish it: max(-3, min(3, effort))."
 
 
 def test_an_effort_that_goes_elsewhere_has_a_hint_of_its_own():

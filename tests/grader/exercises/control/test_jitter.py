@@ -62,7 +62,7 @@ def test_what_is_right_passes_and_the_last_message_may_be_missing(topic):
 @pytest.mark.parametrize("topic", TOPICS)
 def test_a_number_is_missing_or_too_many(topic):
     right, stamps = TOPICS[topic][2], TOPICS[topic][1]
-    hint = "One number for each message: no more, and none left out."
+    hint = "Publish one number for each message: no more, and none left out."
     few, many = f"{len(right) - 2}", f"{len(right) + 1}"
     assert missed(topic, right[:-2]) == (f"{len(right)} messages on {topic}", few, hint)
     assert missed(topic, [*right, right[-1]], [*stamps, 0.3]) == (f"{len(right)} messages on {topic}", many, hint)
@@ -91,7 +91,7 @@ def test_a_number_may_take_a_twentieth_of_a_second_and_no_longer(topic):
     assert missed(topic, right, [*stamps[:-1], last + 0.051]) == (
         f"a number on {topic} for the message of {last:.3g} s, within 0.05 s",
         f"it comes at {last + 0.051:.3g} s",
-        "Publish in the callback, as each message comes: later the number is of no use.",
+        "Publish in the callback, as each message arrives: later the number is of no use.",
     )
 
 
@@ -105,11 +105,11 @@ def test_ten_messages_are_enough_and_nine_are_none_of_the_students_fault():
 @pytest.mark.parametrize(
     ("topic", "values", "hint"),
     [
-        ("/latency", [-late for late in LATE], "Arrival minus stamp, and not the other way round."),
+        ("/latency", [-late for late in LATE], "It is arrival minus stamp, not the other way round."),
         (
             "/latency",
             [EPOCH / SECOND + arrived for arrived in ARRIVED],
-            "That is the time of day: take the stamp away from it.",
+            "That is the time of arrival: subtract the stamp from it.",
         ),
         ("/latency", MEASURED, "The latency is now minus the stamp in the header, in seconds."),
         (
@@ -117,23 +117,23 @@ def test_ten_messages_are_enough_and_nine_are_none_of_the_students_fault():
             [*[-late for late in LATE[:-1]], 0.0],
             "The latency is now minus the stamp in the header, in seconds.",
         ),
-        ("/jitter", [gap - 0.02 for gap in GAPS], "Early counts as much as late: take abs(...) of it."),
+        ("/jitter", [gap - 0.02 for gap in GAPS], "Early counts as much as late: use abs(...)."),
         ("/jitter", GAPS, "That is the time between two arrivals: how much does it differ from 0.02 s?"),
         (
             "/jitter",
             [0.0] * 11,
-            "Between the stamps it is always 0.02 s, for the sensor measures exactly. What your loop feels is when "
-            "messages arrive: by your own clock.",
+            "Between stamps it is always 0.02 s, because the sensor measures exactly. What matters to your loop is "
+            "when messages arrive, by your own clock.",
         ),
         (
             "/jitter",
             [0.01] * 11,
-            "Remember when the last message arrived, by your clock; abs(now - before - 0.02).",
+            "Store when the last message arrived, by your clock; the jitter is abs(now - before - 0.02).",
         ),
         (
             "/late",
             [int(late > 0.01) for late in LATE],
-            "Each count is for one message alone: add them up, self.late += 1.",
+            "You count each message separately: add them up, self.late += 1.",
         ),
         ("/late", [n + 1 - count for n, count in enumerate(COUNTS)], "Those came in time."),
         ("/late", [count + 1 for count in COUNTS], "Count those whose latency is above 0.01 s, from the start on."),

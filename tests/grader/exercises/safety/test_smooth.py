@@ -107,7 +107,7 @@ def test_a_speed_is_reached_with_the_27th_command():
     assert missed("gets_there", STEADY, [0.19] * 27 + [0.2] * 13) == (
         "linear.x 0.2 m/s at 1.35 s, for 0.2",
         "0.19",
-        "Add the step again and again, up to the request or the limit.",
+        "Keep adding the step, up to the request or the limit.",
     )
 
 
@@ -169,7 +169,7 @@ def test_speeds_grow_by_a_step_but_for_rounding():
     assert missed("speeds_up_gently", STEADY, [0.0255, *RAMP[1:]]) == (
         GENTLY,
         "0 and then 0.0255 m/s at 0.05 s",
-        "Remember what you sent last, and go at most one step beyond it.",
+        "Store the speed you sent last, and go at most one step beyond it.",
     )
     turns = [(0.0, 0.5)] * 40
     assert passes("speeds_up_gently", turns, [(0.0, z) for z in ramp(0.5, 0.1)])
@@ -217,7 +217,7 @@ def test_what_is_no_finite_number_counts_as_0_but_for_a_thousandth(nonsense):
     assert missed("takes_no_nonsense", strange, ending(RAMP, 0.0011)) == (
         f"linear.x 0 m/s at 2 s, for {nonsense:.3g}",
         "0.0011",
-        "min and max let NaN through, or make the limit of it. Ask math.isfinite(requested) first.",
+        "min and max let NaN through, or turn it into the limit. Check math.isfinite(requested) first.",
     )
     assert verdict("takes_no_nonsense", strange, ending(RAMP, 0.1)).unsafe
 
