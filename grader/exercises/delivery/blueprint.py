@@ -46,14 +46,14 @@ def has_four_programs(run: Recording) -> None:
     """There are four programs: perception, reader, decision and control."""
     there = sorted(name.strip("/") for name in run.graph.nodes if not run.is_course_node(name))
     if there != sorted(PROGRAMS):
-        hint = "Each name in the plan is a program; one for each question, and no more."
+        hint = "Each name in the plan is a program: one for each question, and no more."
         raise Missed(", ".join(sorted(PROGRAMS)), ", ".join(there) or "no program", hint)
 
 
 @blueprint.check(3, after=has_four_programs)
 def publishes_answers(run: Recording) -> None:
     """Each program publishes its results, with the right types."""
-    hint = "Read the question of each program: what does it say, on which topic, of which type?"
+    hint = "Read each program's question: what does it publish, on which topic, of which type?"
     for name, topic in TOPICS.items():
         if topic.publisher:
             _require(run, "publisher", topic.publisher, name, topic.type, hint)
@@ -64,7 +64,7 @@ def subscribes_to_what_it_needs(run: Recording) -> None:
     """Each program subscribes to what its task needs, with the right types: control to /people, too."""
     for name, topic in TOPICS.items():
         for program in topic.subscribers:
-            hint = "Read the question of each program: what does it have to receive to answer?"
+            hint = "Read each program's question: what does it have to receive to answer it?"
             if name in ("/people", "/obstacles", "/robot_pose"):
                 hint = "Safety must not depend on decision: control subscribes to perception directly."
             _require(run, "subscription", program, name, topic.type, hint)
@@ -84,31 +84,31 @@ def subscribes_to_nothing_else(run: Recording) -> None:
 
 @blueprint.check(2, after=publishes_answers)
 def has_one_publisher_for_each(run: Recording) -> None:
-    """Each topic has one program that publishes it: control alone commands the motors."""
+    """Each topic has one program that publishes it: only control commands the motors."""
     for end in _endpoints(run, "publisher"):
         program = end.node.strip("/")
         topic = TOPICS.get(end.name)
         if topic is None or topic.publisher != program:
             who = topic.publisher if topic and topic.publisher else "the robot" if topic else "no program"
-            hint = "One topic, one program that publishes there, and no topic that isn't needed."
+            hint = "Give each topic one program that publishes it, and drop topics that no program needs."
             if end.name == DRIVER:
-                hint = "Exactly one program commands the motors: the one that asks the gate before."
+                hint = "Let exactly one program command the motors: the one that checks the gate first."
             raise Missed(f"{end.name} published by {who}", f"{program} publishes it", hint,
                          unsafe=end.name == DRIVER)
 
 
 @blueprint.check(2, after=subscribes_to_what_it_needs)
 def has_matching_qos(run: Recording) -> None:
-    """Latched topics are received by late joiners, and the QoS for sensors matches the sensors'."""
+    """Late joiners receive latched topics, and the QoS of sensor subscriptions matches the sensors'."""
     for end in _endpoints(run, "subscription"):
         program = end.node.strip("/")
         for other in [other.qos for other in run.graph.publishers(end.name) if other.from_course]:
             if other["durability"] == "transient_local" != end.qos["durability"]:
-                hint = "The message was published before your program began: subscribe with KEPT."
+                hint = "The message was published before your program started: subscribe with KEPT."
                 raise Missed(f"{end.name} received with KEPT", f"{program} receives only new messages", hint)
             if other["reliability"] == "best_effort" and end.qos["reliability"] == "reliable":
                 saw = f"{program} requests reliable, and receives nothing"
-                hint = "A sensor offers best effort, and doesn't match a subscription that requests more: "
+                hint = "A sensor offers best effort, which doesn't match a subscription that requests more: "
                 raise Missed(f"{end.name} received as best effort", saw, hint + "qos_profile_sensor_data.")
 
 

@@ -13,7 +13,7 @@ GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
 SAME = 0.02  # m
 PAST = "Subscribe to /orders with KEPT, and store orders by their id: a later message replaces it."
-SILENT = "Publish both each time the timer calls, also where nothing has changed, and wait for nothing."
+SILENT = "Publish both every time the timer fires, even when nothing has changed, and never wait."
 
 decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
 
@@ -37,7 +37,7 @@ def has_the_frame_map(run: Recording) -> None:
     for goal in from_student(run, GOAL):
         frame = goal.message.header.frame_id
         if frame != "map":
-            hint = "Publish the pose of the order or the dock as it came: header.frame_id is in it."
+            hint = "Publish the pose of the order or the dock unchanged: it contains header.frame_id."
             raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
 
 
@@ -51,27 +51,29 @@ def publishes_twice_a_second(run: Recording) -> None:
 @decide.check(4, after=knows_latched_messages)
 def delivers_first(run: Recording) -> None:
     """A robot that carries a load delivers it, whatever else is requested."""
-    _compare(run, "delivers", "Look for an order that is PICKED_UP before you look at anything else.")
+    _compare(run, "delivers", "Look for an order that is PICKED_UP before you check anything else.")
 
 
 @decide.check(4, after=knows_latched_messages)
 def charges(run: Recording) -> None:
     """It charges below 30 %, then until 80 %, and not in between."""
-    hint = "Two limits: below 0.3 it begins; below 0.8 it goes on, if the last state was charge."
+    hint = ("Use two limits: below 0.3 it starts charging; below 0.8 it continues if the last state was "
+            "charge.")
     _compare(run, "charges", hint)
 
 
 @decide.check(4, after=knows_latched_messages)
 def gives_up(run: Recording) -> None:
-    """It drops orders that are over, and those that can't be delivered in time any more."""
-    hint = "Fetch an order only while it is WAITING and has more time left than it takes; ask each time."
+    """It drops orders that are over, and those that can no longer be delivered in time."""
+    hint = "Fetch an order only while it is WAITING and has more time left than it takes; check every time."
     _compare(run, "gives up", hint)
 
 
 @decide.check(3, after=knows_latched_messages)
 def keeps_to_one(run: Recording) -> None:
-    """It takes the most urgent order, and then stays with the one that it has begun."""
-    hint = "While the order that it began can be made, none takes its place; else the earliest deadline."
+    """It takes the most urgent order, and then stays with the one it has begun."""
+    hint = ("Stay with the order you began as long as it can be delivered; otherwise take the earliest "
+            "deadline.")
     _compare(run, "keeps", hint)
 
 
@@ -81,9 +83,9 @@ def _compare(run: Recording, about: str, hint: str) -> None:
         begin = one.begin + LATE
         window = Window(begin, run.ended.stamp).before(one.end)
         goals, states = (window.rows(from_student(run, topic)) for topic in (GOAL, STATE))
-        expected = f"“{one.state}” and {_text(one.place)} from {begin:.3g} s on, as {one.reason}"
+        expected = f"“{one.state}” and {_text(one.place)} from {begin:.3g} s on, because {one.reason}"
         if not (goals and states):
-            saw = f"no word from {begin:.3g} s to {one.end:.3g} s"
+            saw = f"nothing published from {begin:.3g} s to {one.end:.3g} s"
             raise Missed(expected, saw, SILENT, picture="topics")
         for state, goal in zip(states, goals, strict=False):
             place = Pose2D.from_message(goal.message.pose)[:2]

@@ -20,7 +20,7 @@ GIVEN_UP = 60.0  # s for which a robot stands that has an order; people stop it 
 DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 IDLE = {
-    "None of your programs publishes on /cmd_vel. Does your list hold all of them?":
+    "None of your programs publishes on /cmd_vel. Are all of them in your list?":
         lambda run: all(row.from_course for row in run.messages("/cmd_vel")),
     "The robot never moves. Run each program alone, and look at what it publishes, and when.":
         lambda run: traveled(run) < 0.1,
@@ -70,16 +70,17 @@ deliver = Exercise(
 
 @deliver.check(1, lasts=True)
 def touches_no_one(run: Recording) -> None:
-    """In no run does the robot touch a person, or drive within 0.5 m of one: such a run earns no more."""
+    """In no run does the robot touch a person, or drive within 0.5 m of one: that run earns no more."""
     moment, near = shift(run).met_person, nearest_person(run, DRIVING)
     if moment is not None:
-        hint = ("Control stands still while a person walks near, whatever its goal, and while it doesn't "
-                "know. The replay shows what it did before the touch.")
+        hint = ("Control must stop while a person walks nearby, whatever its goal, and also while it "
+                "doesn't know. The replay shows what it did before the contact.")
         raise Missed("no contact with a person", f"one at {moment:.3g} s", hint, picture="path", unsafe=True)
     if near is not None and near.away < CLOSE:
         saw = f"{near.speed:.2f} m/s at {near.stamp:.3g} s, {near.away:.2f} m from a person"
-        hint = "By luck no one was hurt. Does perception publish who walks, and does control check each time?"
-        raise Missed(f"a robot that stands within {CLOSE} m", saw, hint, picture="path", unsafe=True)
+        hint = ("Only by luck was no one hurt. Does perception publish people who walk, and does control "
+                "check every time?")
+        raise Missed(f"a robot that stands still within {CLOSE} m", saw, hint, picture="path", unsafe=True)
 
 
 @deliver.check(5, after=touches_no_one, only="shift", hints=IDLE)
@@ -95,10 +96,10 @@ def delivers(run: Recording) -> None:
 
 @deliver.check(2, after=delivers, only="shift")
 def charges(run: Recording) -> None:
-    """The battery never runs empty, though it is 20 % full at first."""
+    """The battery never runs empty, although it starts at 20 %."""
     empty = next((stamp for stamp, share in shift(run).battery if share <= 0.0), None)
     if empty is not None:
-        hint = "Below a third, drive to /dock_pose, and leave it when the battery is nearly full."
+        hint = "Below a third, drive to /dock_pose, and stay there until the battery is nearly full."
         raise Missed("a battery that is charged in time", f"it is empty at {empty:.0f} s", hint)
 
 
@@ -108,7 +109,7 @@ def touches_nothing(run: Recording) -> None:
     touched = shift(run).touched
     if touched:
         saw = ", ".join(f"{what}: {count}" for what, count in touched.items())
-        hint = "Keep 0.2 m from the robot's middle to the map's walls and to what the lidar sees."
+        hint = "Keep the robot's center 0.2 m away from the map's walls and from what the lidar sees."
         raise Missed("no contact", saw, hint, picture="path")
 
 
@@ -123,31 +124,32 @@ def stands_blind(run: Recording) -> None:
         drove |= top_speed(before.rows(run.path)).linear > STANDING
         top = top_speed(silent.rows(run.path))
         if top.linear > STANDING:
-            expected = f"the robot standing from {begin + SETTLING:.3g} to {end:.3g} s: no scan comes"
-            hint = "How old is what control knows? Older than half a second: zeros. Compare header.stamp."
+            expected = f"the robot standing still from {begin + SETTLING:.3g} to {end:.3g} s: no scans arrive"
+            hint = ("How old is the data that control uses? If it is over half a second old, publish zeros. "
+                    "Compare header.stamp.")
             saw = f"{top.linear:.2f} m/s at {top.stamp:.3g} s"
             raise Missed(expected, saw, hint, picture="topics", unsafe=True)
     if not drove and not _delivers(run):  # a robot that delivers may stand for people
-        raise Missed("a robot that drives when the lidar falls silent", "it stood before")
+        raise Missed("a robot that drives when the lidar falls silent", "it was already standing still")
 
 
-WAITS_FOR_EVER = "The scans are back, and so should be poses and plans: nothing may wait forever."
-SAME_WAY = "Plan anew once a second, with what the lidar sees as solid as a wall."
-SAME_ORDER = "An order that is canceled is published once more: its status says so. Choose again."
-NEW_MESSAGES_ONLY = ("A program that is restarted receives old orders, the map and the dock only if it "
-                     "requests them: durability TRANSIENT_LOCAL. What it hasn't received yet must not "
-                     "end it.")
+WAITS_FOR_EVER = "The scans are back, and poses and plans should be, too: nothing may wait forever."
+SAME_WAY = "Plan again once a second, and treat what the lidar sees as a wall."
+SAME_ORDER = "A canceled order is published once more, with that status. Then choose again."
+NEW_MESSAGES_ONLY = ("A restarted program receives old orders, the map and the dock only if it requests "
+                     "durability TRANSIENT_LOCAL. And data that hasn't arrived yet must not crash "
+                     "it.")
 
 
 @deliver.check(1, after=stands_blind, only="blind", hints=_unless_idle(WAITS_FOR_EVER))
 def sees_again(run: Recording) -> None:
-    """When the scans come again, it continues and delivers the order."""
+    """When the scans return, it continues and delivers the order."""
     _require_delivery(run)
 
 
 @deliver.check(3, after=touches_no_one, only="blocked", hints=_unless_idle(SAME_WAY))
 def goes_round(run: Recording) -> None:
-    """When a box that is on no map blocks its path, it finds another one, and delivers the order."""
+    """When a box that is on no map blocks its path, it finds another path, and delivers the order."""
     _require_delivery(run)
 
 
@@ -159,7 +161,7 @@ def takes_another(run: Recording) -> None:
 
 @deliver.check(2, after=touches_no_one, only="restarted", hints=_unless_idle(NEW_MESSAGES_ONLY))
 def comes_back(run: Recording) -> None:
-    """Each program is killed once, and started again 2 s later: the order is delivered all the same."""
+    """Each program is killed once, and restarted 2 s later: the order is still delivered."""
     _require_delivery(run)
 
 

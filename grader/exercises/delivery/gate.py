@@ -21,14 +21,15 @@ SLOW, MARGIN = 0.2, 0.04  # m/s
 STARTS = 4.0  # s, within which the robot drives on
 STEP = 0.05  # s
 OLD, NEAR, WIDE = 0.5, 1.5, 2.5  # s; m: stands, drives slowly
-NO_STOPS = ("When it may not drive, it publishes nothing, and the robot keeps to its last command: publish "
-            "zeros then, each time drive is called.")
+NO_STOPS = ("When the robot may not drive, your node publishes nothing, and the robot keeps its last "
+            "command: "
+            "publish zeros then, every time drive is called.")
 ABOUT = 0.05  # m; what is nearer to a limit is on neither side
 
 gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, companions=partners, seeds=(2,))
 
 
-@gate.check(2, guess="Leave the subscriptions as they are, and publish at the end of drive.")
+@gate.check(2, guess="Leave the subscriptions unchanged, and publish at the end of drive.")
 def has_its_endpoints(run: Recording) -> None:
     """The node subscribes to /robot_pose, /people and /goal_pose, and publishes Twist on /cmd_vel."""
     for topic in (POSE, PEOPLE, GOAL):
@@ -38,44 +39,44 @@ def has_its_endpoints(run: Recording) -> None:
 
 @gate.check(5, after=has_its_endpoints)
 def arrives(run: Recording) -> None:
-    """The robot gets to the first place that it is sent to, and touches no one."""
+    """The robot gets to the first place it is sent to, and touches no one."""
     touched = [contact for contact in run.contacts if contact.what == "person"]
     if touched:
-        hint = "A person walks there: before each command, check whether the robot may move at all."
+        hint = "A person is walking there: before each command, check whether the robot may move at all."
         saw = f"a person touched at {touched[0].stamp:.3g} s"
         raise Missed("no one touched", saw, hint, picture="path", unsafe=True)
     places = [place for _, place in _goals(run)]
     if len(set(places)) < 2:
-        aim = "Drive along self.way with steer, as fast as the gate allows, and stand when the goal is near."
-        saw = f"another place, as the robot ends at {run.path[-1].x:.2f}, {run.path[-1].y:.2f}"
-        expected = f"the robot standing at {places[0][0]:.2f}, {places[0][1]:.2f}"
+        aim = "Drive along self.way with steer, as fast as the gate allows, and stop when the goal is near."
+        saw = f"the wrong place: the robot ends at {run.path[-1].x:.2f}, {run.path[-1].y:.2f}"
+        expected = f"the robot standing still at {places[0][0]:.2f}, {places[0][1]:.2f}"
         raise Missed(expected, saw, guess=aim, picture="path")
 
 
 @gate.check(4, after=arrives)
 def stands_near_people(run: Recording) -> None:
     """It stands still while a person is reported within 1.5 m."""
-    hint = "Ask for the distance to each of self.people before each command."
+    hint = "Compute the distance to each of self.people before each command."
     _require_at_most(run, STILL, _close, hint, unsafe=True)
 
 
 @gate.check(2, after=arrives)
 def slow_about_people(run: Recording) -> None:
     """It drives no faster than 0.2 m/s while a person is within 2.5 m."""
-    hint = "Two limits for the nearest person: within 1.5 m the speed is 0, within 2.5 m it is 0.2."
+    hint = "Use two limits for the nearest person: within 1.5 m the speed is 0, within 2.5 m it is 0.2."
     _require_at_most(run, SLOW + MARGIN, _farther, hint)
 
 
 @gate.check(4, after=arrives)
 def stands_without_new_messages(run: Recording) -> None:
     """It stops when /robot_pose or /people is older than 0.5 s, by the stamps."""
-    hint = "Keep the stamps of both, not when they came, and compare the older one with the clock."
+    hint = "Store the stamps of both, not when they arrived, and compare the older one with the clock."
     _require_at_most(run, STILL, _old, hint, unsafe=True)
 
 
 @gate.check(3, after=arrives)
 def publishes_stops_and_goes_on(run: Recording) -> None:
-    """It publishes ten times a second in every case, and drives on when it is allowed to."""
+    """It always publishes ten times a second, and drives on when it is allowed to."""
     try:
         rate(run, OUT, 10.0, tolerance=0.15)
     except Missed as missed:
@@ -86,8 +87,8 @@ def publishes_stops_and_goes_on(run: Recording) -> None:
         if window.end - window.begin < STARTS or any(map(window.contains, changes)):
             continue
         if length(window.rows(run.path)) < 0.1:
-            expected = f"a robot that drives from {window.begin:.3g} s on, as {why}"
-            hint = "The gate is asked anew each time: what stopped the robot before doesn't count any more."
+            expected = f"a robot that drives from {window.begin:.3g} s on, because {why}"
+            hint = "Check the gate again every time: whatever stopped the robot earlier no longer counts."
             raise Missed(expected, f"it stood until {window.end:.3g} s", hint, picture="path")
 
 
@@ -130,11 +131,11 @@ def _moments(run: Recording) -> list[KnownState]:
         here = Pose2D.from_message(pose.message.pose)
         places = [Pose2D.from_message(one)[:2] for one in people.message.poses]
         near = min((math.dist(here[:2], place) for place in places), default=math.inf)
-        why = "the stamps of all news were old"
+        why = "the stamps of all messages were old"
         if now - pose.stamp >= OLD:
-            why = "there was no news"
+            why = "there were no messages"
         elif now - people.stamp > OLD:
-            why = f"nothing came on {PEOPLE}"
+            why = f"nothing arrived on {PEOPLE}"
         found.append(KnownState(now, age, why, near))
     return found
 
@@ -153,7 +154,7 @@ def _farther(moment: KnownState) -> str:
 
 
 def _allowed(moment: KnownState) -> str:
-    return "nothing spoke against it" if moment.near > NEAR + ABOUT and moment.age < OLD - 0.1 else ""
+    return "nothing was in the way" if moment.near > NEAR + ABOUT and moment.age < OLD - 0.1 else ""
 
 
 def _windows(run: Recording, cause: Callable[[KnownState], str]) -> list[tuple[Window, str]]:
@@ -169,14 +170,14 @@ def _require_at_most(run: Recording, speed: float, cause: Callable[[KnownState],
     """Raises Missed where the robot is faster than that (m/s) although a cause has held for a while."""
     found = [row for row in _windows(run, cause) if row[0].end - row[0].begin > BRAKING]
     if not found:
-        hint = "Drive at 0.5 m/s where nothing speaks against it: the faults come while the robot drives."
+        hint = "Drive at 0.5 m/s while the gate is open: the faults come while the robot drives."
         raise Missed("a robot that drives when the fault comes", "none that drives fast enough", hint)
     for whole, why in found:
         # At the moment of new messages, the timer that drives may fire after them.
         window = Window(whole.begin + BRAKING, run.ended.stamp).before(whole.end - STEP)
         top = top_speed(window.rows(run.path))
         if top.linear > speed:
-            expected = f"at most {speed:.2g} m/s from {window.begin:.3g} s on, as {why}"
+            expected = f"at most {speed:.2g} m/s from {window.begin:.3g} s on, because {why}"
             saw = f"{top.linear:.2f} m/s at {top.stamp:.3g} s"
             hint = hint if _publishes_while_it_stands(run) else NO_STOPS
             raise Missed(expected, saw, hint, picture="path", unsafe=unsafe)

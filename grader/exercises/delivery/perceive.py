@@ -29,14 +29,14 @@ EACH = 3  # every third message is judged: what is in view takes time to compute
 MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
 WALKS, STANDS = 0.4, 0.05  # m/s
 SETTLED = 6.0  # s until what stands is known to stand
-FROM_THE_MIDDLE = ("The rays begin where the lidar is: give points_of the place of base_scan in map, not "
-                   "that of base_link.")
+FROM_THE_MIDDLE = ("The rays start at the lidar: give points_of the pose of base_scan in map, not that of "
+                   "base_link.")
 DELAY = 0.03  # s from the robot to the laptop
-OF_NOW = "That is where the robot is when the scan comes: look up where it was at the scan's stamp."
+OF_NOW = "That is where the robot is when the scan arrives: look up where it was at the scan's stamp."
 PAUSE = 2.0  # s without news on a topic
-ALWAYS = "Publish with every other scan from the first one on: a list that is missing stops no robot."
+ALWAYS = "Publish with every other scan from the first one on: a list that is never published stops no robot."
 
-perceive = Exercise("perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner,
+perceive = Exercise("perceive", "Perceive: who is walking?", world=crossing, seconds=20, companions=turner,
                     network=Network(delay=DELAY), seeds=(1,))
 
 
@@ -63,9 +63,9 @@ def knows_its_place(run: Recording) -> None:
 
 @perceive.check(3, after=knows_its_place)
 def stamps_by_the_scan(run: Recording) -> None:
-    """All three carry the stamp of the scan that they come from, and the frame map, five times a second."""
+    """All three carry the stamp of the scan they come from, and the frame map, five times a second."""
     stamps = {_nanoseconds(row) for row in run.messages("/scan") if row.from_course}
-    hint = "Pass scan.header.stamp on, and not the time of now."
+    hint = "Copy scan.header.stamp, not the current time."
     for topic in (POSE, PEOPLE, OBSTACLES):
         rows = from_student(run, topic)
         wrong = next((row for row in rows if _nanoseconds(row) not in stamps), None)
@@ -74,21 +74,21 @@ def stamps_by_the_scan(run: Recording) -> None:
             saw = f"{sec + nanosec / 1e9:.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
             raise Missed("the stamps of scans", saw, hint)
         if any(row.message.header.frame_id != "map" for row in rows):
-            hint = "The header says in which frame a place is: listed and stamped write map."
+            hint = "The header says which frame a point is in: listed and stamped write map."
             raise Missed(f"the frame map on {topic}", f"“{rows[0].message.header.frame_id}”", hint)
         count = len(set(map(_nanoseconds, rows)))
         if count < 4 * run.ended.stamp:
             saw = f"those of {count} scans in {run.ended.stamp:.3g} s"
-            hint = "Publish with every other scan: a robot that learns of people late drives on for too long."
+            hint = "Publish with every other scan: a robot that learns of people late brakes too late."
             raise Missed(f"five scans or more each second on {topic}", saw, hint)
         _require_no_pause(run, topic)
 
 
 @perceive.check(4, after=knows_its_place)
 def finds_what_stands(run: Recording) -> None:
-    """/obstacles contains points of the boxes in view, and none of what is on the map."""
+    """/obstacles contains points on the boxes in view, and none of anything on the map."""
     boxes = _boxes_in_view(run)
-    hint = "Floor.strange gives the points that the map doesn't explain; publish them all."
+    hint = "Floor.strange returns the points that the map doesn't explain; publish them all."
     for row in from_student(run, OBSTACLES)[::EACH]:
         points, person = _points(row), _nearest(_person(run), _time(row))[1:3]
         person_in_view = in_view(run.world, run.world.start[:2], person, FAR, 0.0)
@@ -117,12 +117,12 @@ def finds_who_walks(run: Recording) -> None:
         raise Missed(f"messages on {PEOPLE} before the person comes", "none", ALWAYS)
     for row, box in itertools.product(before, _plain_boxes(run, _time(before[-1])) if before else []):
         if any(math.dist(point, box) < BOX for point in _points(row)):
-            hint = "What has stood there all the time doesn't walk: compare with half a second before."
+            hint = "What has stood there all along isn't walking: compare with half a second earlier."
             saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
             raise Missed("no box on /people that has stood there for six seconds", saw, hint)
-    hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
+    hint = "Points that were not there half a second earlier are a person's: far_from(strange, before, 0.25)."
     if any(_has(_points(row), _nearest(_person(run), _time(row))[1:3]) for row in seen):
-        hint = "Keep the points that moved, each with its time, for five seconds: at times they are missing."
+        hint = "Keep the points that moved, each with its time, for five seconds: people go unseen at times."
     for row in seen:
         turned = _begins_at_base_link(run, row)
         _require_person(run, row, "a person who walks", FROM_THE_MIDDLE if turned else hint)
@@ -133,12 +133,12 @@ def finds_who_walks(run: Recording) -> None:
 
 @perceive.check(4, after=finds_who_walks)
 def remembers_who_stops(run: Recording) -> None:
-    """A person who walked, and stops, stays on /people for some seconds."""
+    """A person who walked and then stops stays on /people for some seconds."""
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.2) and _speed_of_person(run, row, 1.2) < STANDS]
     hint = "Keep the points that moved, each with its time, for five seconds."
     for row in seen:
-        _require_person(run, row, "a person who walked here, and stands now", hint)
+        _require_person(run, row, "a person who walked here, and is standing still now", hint)
     _require_three(run, seen, "a person who stands")
 
 
@@ -184,7 +184,7 @@ def _require_person(run: Recording, row: Message, who: str, hint: str) -> None:
         saw = f"no point of /people within {REACH} m of that at {row.stamp:.3g} s"
         raise Missed(f"{who}, at {_text(there)}", saw, hint)
     if len(points) > 300:
-        hint = "Publish the points that moved as they are, each of them once."
+        hint = "Publish the points that moved unchanged, each of them once."
         raise Missed("at most 300 points of people", f"{len(points)} points at {row.stamp:.3g} s", hint)
 
 

@@ -19,7 +19,7 @@ TOO_SELDOM = ("spin_once() runs one callback each time. Sleep 0.02 s between two
 shelves = Exercise("shelves", "asyncio beside rclpy", seconds=15, companions=scanner, seeds=(1, 2))
 
 
-@shelves.check(1, guess="Leave __init__ as it is, and let rclpy.spin_once run what is due.")
+@shelves.check(1, guess="Leave __init__ unchanged, and let rclpy.spin_once run what is due.")
 def has_its_endpoints(run: Recording) -> None:
     """The node subscribes to /label, and publishes on /alive and on /shelf."""
     subscribes(run, LABELS, STRING)
@@ -28,18 +28,18 @@ def has_its_endpoints(run: Recording) -> None:
 
 
 @shelves.check(3, after=has_its_endpoints, hints={
-    "That is the coroutine itself: it doesn't begin without `await`. Write await delivery.shelf_of(label).":
+    "That is the coroutine itself: without `await` it doesn't start. Write await delivery.shelf_of(label).":
         lambda run, label, texts: any("coroutine" in text for text in texts),
     "A shelf was published with another parcel's label. Several coroutines run at the same time, so "
-    "each needs a label of its own: pass it as an argument.":
+    "each needs its own label: pass it as an argument.":
         lambda run, label, texts: any(text.endswith(f": {stored(label)}") for text in texts),
-    "A task runs only while asyncio's event loop has its turn. Write `await asyncio.sleep(0.02)` after each "
-    "spin_once(): rclpy.spin() and time.sleep() keep the turn.":
+    "A task runs only while asyncio's event loop gets a turn. Write `await asyncio.sleep(0.02)` after each "
+    "spin_once(): rclpy.spin() and time.sleep() never give it one.":
         lambda run, label, texts: not from_student(run, SHELVES),
     "Each label gets one answer, the database's: start a task for each, and cancel none.": otherwise,
 })
 def answers_each_label(run: Recording) -> list[tuple[Message, Message]]:
-    """For each label, the database's answer comes once on /shelf, as “label: shelf”."""
+    """For each label, the database's answer is published once on /shelf, as “label: shelf”."""
     answers, found = from_student(run, SHELVES), []
     for row in from_course(run, LABELS, settled=MOST, what="labels"):
         label = row.message.data
@@ -62,7 +62,7 @@ def answers_each_label(run: Recording) -> list[tuple[Message, Message]]:
     "them at the same time.": otherwise,
 })
 def answers_side_by_side(run: Recording, found: list[tuple[Message, Message]]) -> None:
-    """A label doesn't wait until the database has found those that came before it."""
+    """A label doesn't wait until the database has found the earlier ones."""
     for label, answer in found:
         ready = label.stamp + seconds_for(label.message.data)
         if answer.stamp > ready + SLACK:
@@ -71,12 +71,13 @@ def answers_side_by_side(run: Recording, found: list[tuple[Message, Message]]) -
 
 
 @shelves.check(2, after=answers_each_label, hints={
-    "A callback waited for {seconds:.2g} s, and the node with it. Start a task there, and return at once.":
+    "A callback waited for {seconds:.2g} s, and so did the whole node. Start a task there, and return at "
+    "once.":
         lambda run, pause: _longest_callback(run) > PAUSE and {"seconds": _longest_callback(run)},
     TOO_SELDOM: otherwise,
 })
 def stays_alive(run: Recording) -> None:
-    """Messages come on /alive all the time, also while the database searches: at most 0.25 s apart."""
+    """Messages come on /alive all the time, even while the database searches: at most 0.25 s apart."""
     pause, since = _longest_silence(run)
     if pause > PAUSE:
         saw = f"none for {pause:.2g} s, from {since:.3g} s on"

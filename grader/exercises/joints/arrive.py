@@ -17,13 +17,13 @@ UNEVEN = 1.0  # s: a node that looks at the joint is late by about the same each
 arrive = Exercise("arrive", "Wait for arrival", world=joint_of, seconds=18, companions=foreman, seeds=(1, 2))
 
 NOT_ALL = {
-    "The time is over before all had their turn, the last one at {last:.3g} s: don't wait so long.":
+    "The time ran out before all were sent, the last one at {last:.3g} s: don't wait so long.":
         lambda run, sent: 1 < len(sent) < len(_positions(run)) and {"last": _commands(run)[-1].stamp},
-    "It never counts as arrived. Compare the position, in radians, with the target, with a tolerance such as "
-    "0.01 rad, and not with ==.": lambda run, sent: len(sent) < len(_positions(run)),
-    "Take them in their order, from the front: self.positions.pop(0).":
+    "Your code never sees the joint arrive. Compare the position with the target, both in radians, with a "
+    "tolerance such as 0.01 rad, not with ==.": lambda run, sent: len(sent) < len(_positions(run)),
+    "Take them in order, from the front: self.positions.pop(0).":
         lambda run, sent: len(sent) == len(_positions(run)),
-    "After the last one there is nothing more to send.": otherwise,
+    "After the last one, send nothing more.": otherwise,
 }
 
 
@@ -34,11 +34,11 @@ def publishes_commands(run: Recording) -> None:
 
 
 @arrive.check(2, after=publishes_commands, hints={
-    "The positions are radians already, and /joint_commands wants radians.":
+    "The positions are already in radians, and so is /joint_commands: don't convert.":
         lambda run, first: abs(first) > 3.2,
-    "Begin with the first: self.positions.pop(0) gives it, and pop() the last.":
+    "Begin with the first: self.positions.pop(0) returns it, but pop() returns the last.":
         lambda run, first: any(same(first, other) for other in _positions(run)[1:]),
-    "Publish the numbers of /positions as they are; they come once, latched.": otherwise,
+    "Publish the numbers from /positions unchanged; they are sent once, latched.": otherwise,
 })
 def begins_with_the_first(run: Recording) -> None:
     """The first command is the first position of /positions."""
@@ -48,17 +48,18 @@ def begins_with_the_first(run: Recording) -> None:
 
 
 @arrive.check(6, after=begins_with_the_first, hints={
-    "A command every {period:.3g} s, whatever the joint does: time says nothing about arrival. Compare "
-    "its position on /joint_states with the target.": lambda run, commands, gap: _period(commands),
-    "It is there, but it still moves: arrived means that the velocity is nearly 0, too.":
+    "You send a command every {period:.3g} s, whatever the joint does: time doesn't tell you that it "
+    "has arrived. Compare its position on /joint_states with the "
+    "target.": lambda run, commands, gap: _period(commands),
+    "It is there, but still moving: arrived also means that the velocity is nearly 0.":
         lambda run, commands, gap: gap <= CLOSE,
-    "Arrived means abs(position - target) < 0.01, with abs, or any position below the target would do; "
-    "and abs(velocity) < 0.01 as well, which alone is true before the joint has begun to move.":
+    "Arrived means abs(position - target) < 0.01 (without abs, any position below the target would do) "
+    "and abs(velocity) < 0.01 (which alone is true before the joint starts to move).":
         lambda run, commands, gap: True,
     **NOT_ALL,
 })
 def waits_for_arrival(run: Recording) -> None:
-    """No command comes before the joint has stopped at the position before."""
+    """No command comes before the joint has stopped at the previous position."""
     commands, count = _commands(run), len(_positions(run))
     for before, after in itertools.pairwise(commands):
         target = before.message.data
@@ -66,7 +67,7 @@ def waits_for_arrival(run: Recording) -> None:
         if gap > CLOSE or speed > STANDS:
             when = f"when the next command comes ({after.stamp:.3g} s)"
             saw = f"{gap:.2f} rad left to go, at {speed:.2f} rad/s"
-            expected = f"the joint standing at {target:g} rad {when}"
+            expected = f"the joint standing still at {target:g} rad {when}"
             raise Missed(expected, saw, about=(commands, gap), picture="path")
     _does_not_count_time(run, commands)
     share = (len(commands) - 1) / (count - 1)
@@ -78,7 +79,7 @@ def waits_for_arrival(run: Recording) -> None:
 
 @arrive.check(3, after=waits_for_arrival, hints=NOT_ALL)
 def goes_to_all(run: Recording) -> None:
-    """The joint is sent to all of the positions, in order, each of them once."""
+    """The joint is sent to all of the positions, in order, once each."""
     positions, sent = _positions(run), [row.message.data for row in _commands(run)]
     if len(sent) != len(positions) or not matches(sent, positions):
         raise Missed(listed(positions), listed(sent), about=(sent,))
@@ -111,9 +112,9 @@ def _does_not_count_time(run: Recording, commands: list[Message]) -> None:
     pairs = itertools.pairwise(commands)
     waits = [after.stamp - _arrival(run, before, after.stamp) for before, after in pairs]
     if waits and max(waits) - min(waits) > UNEVEN:
-        saw = f"it once {min(waits):.2g} s after that, and once {max(waits):.2g} s"
-        hint = ("No way takes longer than that, and most take less: time says nothing about arrival. "
-                "Compare the position on /joint_states with the target.")
+        saw = f"it {min(waits):.2g} s after that one time, and {max(waits):.2g} s another time"
+        hint = ("No move takes longer than that, and most take less: time doesn't tell you that it "
+                "has arrived. Compare the position on /joint_states with the target.")
         raise Missed("the next command because the joint has arrived", saw, hint, picture="path")
 
 

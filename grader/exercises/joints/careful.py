@@ -35,11 +35,11 @@ def publishes_commands(run: Recording) -> None:
 
 
 @careful.check(4, after=publishes_commands, hints={
-    "Positions and limits are radians, all of them: pass the number on as it is.":
+    "Positions and limits are all in radians: pass the number on unchanged.":
         lambda run, request: request.responses and abs(request.values()[0]) > 3.2,
-    "A refusal is not the end: return from the callback, and take the next request as ever.":
+    "A refusal isn't the end: return from the callback, and handle the next request as usual.":
         lambda run, request: _silent_since_a_refusal(run, request),
-    "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
+    "It is between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
         lambda run, request: _limits(run)._asdict(),
 })
 def passes_on(run: Recording) -> None:
@@ -50,50 +50,50 @@ def passes_on(run: Recording) -> None:
 
 
 @careful.check(4, after=passes_on, hints={
-    "nan is neither below the lower limit nor above the upper one: each comparison with it is False. Ask "
+    "nan is neither below the lower limit nor above the upper one: every comparison with it is False. Test "
     "the other way round: if not lower <= value <= upper, refuse.": lambda run: all(
         math.isnan(row.message.data) for row in run.messages(COMMANDS) if not _is_within(run, row.message)
     ),
-    "Compare with both limits of the description before you publish, the lower one with its sign.":
+    "Before you publish, compare with both limits from the description, the lower one with its sign.":
         lambda run: True,
 })
 def refuses(run: Recording) -> None:
-    """A position beyond the limits, or nan, is not passed on, nor anything else in its place."""
+    """A position beyond the limits, or nan, is not passed on, and nothing is sent in its place."""
     commands_within(run, COMMANDS, "data", *_limits(run))
     for request in _refused(run):
         if request.responses and not _holds_a_jam(run, request.responses[0], REACTION + SOON):
             request.expects_nothing(
-                f"no command after {request.value.data:g} is wanted, at {request.stamp:.3g} s",
-                "Refusing isn't clipping: the sender must learn that the request won't be done. "
-                "Send nothing, and log it.",
+                f"no command after the request for {request.value.data:g} at {request.stamp:.3g} s",
+                "Refusing isn't clipping: the sender must learn that the request won't be carried "
+                "out. Send nothing, and log a warning.",
             )
 
 
-@careful.check(2, after=refuses, guess="Where you refuse: self.get_logger().warning(...).")
+@careful.check(2, after=refuses, guess="Where you refuse, add: self.get_logger().warning(...).")
 def logs_refusals(run: Recording) -> None:
     """Each refusal is logged as a warning."""
     answers(
         run, WANTED, level="WARN", within=SOON, where=lambda row: not _is_within(run, row.message),
-        what="positions that can't be gone to",
+        what="positions that can't be reached",
     )
 
 
 @careful.check(5, after=passes_on, hints={
-    "For a moment it pulls with all its might whenever it begins to move. Stuck is a joint that has "
-    "pulled so for half a second, and didn't move.": lambda run, jam, later: jam is None,
-    "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit.":
+    "Whenever it starts to move, it pulls with its full effort for a moment. A joint is stuck only "
+    "when it has done so for half a second without moving.": lambda run, jam, later: jam is None,
+    "Here it pulls the other way, so its effort is negative: compare abs(effort) with the limit.":
         lambda run, jam, later: jam.effort < 0 and any(other.effort > 0 and _is_freed(run, other)
                                                        for other in _jams(run)),
-    "That is late: half a second of pulling without a movement is enough to know.":
+    "That is late: half a second of pulling without moving is enough to know.":
         lambda run, jam, later: later and same(later[0], jam.position, NEAR),
-    "It isn't {sent:.2g} where it is stuck. Send the position that the message has for lift_joint: find "
-    "its place in msg.name, and take position, velocity and effort from there.":
+    "The lift isn't stuck at {sent:.2g}. Send the position that the message has for lift_joint: find its "
+    "index in msg.name, and use that index for position, velocity and effort.":
         lambda run, jam, later: later and {"sent": later[0]},
-    "Stuck is when abs(effort) is as high as the description's limit, and abs(velocity) is 0, for half a "
-    "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
+    "The lift is stuck when abs(effort) is as high as the description's limit and abs(velocity) is 0, for "
+    "half a second. Read both by the joint's name, store since when, and compare with now.": otherwise,
 })
 def frees_what_is_stuck(run: Recording) -> None:
-    """A lift that is stuck is commanded to stay where it is, within 1.2 s; and at no other time."""
+    """A lift that is stuck is commanded to stay where it is, within 1.2 s, and at no other time."""
     for jam in _jams(run):
         if not _is_freed(run, jam):
             sent = Window.after(jam.stamp, REACTION).rows(run.messages(COMMANDS))
@@ -106,7 +106,7 @@ def frees_what_is_stuck(run: Recording) -> None:
     for row in run.messages(COMMANDS):
         is_right = row in in_place_of_refusals or _is_requested(run, row)
         if not is_right and not _holds_a_jam(run, row, REACTION + SOON):
-            expected = "commands only for what is wanted, and where the lift is stuck"
+            expected = "commands only for valid requests, and when the lift is stuck"
             raise Missed(expected, f"{row.message.data:.3g} at {row.stamp:.3g} s", about=(None, []))
 
 

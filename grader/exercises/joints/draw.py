@@ -16,7 +16,7 @@ from sim.nanoseconds import in_seconds
 TOLERANCE = 0.015  # m
 SOON, JUMPS = 1.0, 0.5  # s: a first point so early is a jump, and the credit for it
 HALF_TURN = 2.5  # rad, and more: no two points of a figure are so far apart
-JUMP = "The arm needs time to get to the first point: give it 3 s, or it jumps there, as fast as it can."
+JUMP = "The arm needs time to get to the first point: give it 3 s, or it races there as fast as it can."
 
 draw = Exercise("draw", "An arm that draws", world=desk_of, seconds=10, companions=designer, seeds=(1, 2))
 
@@ -24,16 +24,16 @@ draw = Exercise("draw", "An arm that draws", world=desk_of, seconds=10, companio
 @draw.check(2)
 def sends_a_goal(run: Recording) -> list[Goal]:
     """The node sends a goal to /arm_controller/follow_joint_trajectory."""
-    with hinting("Send it when the figure and the description have come, in the callback of the later one."):
+    with hinting("Send it when both the figure and the description have arrived, in the later callback."):
         return sends_goals(run, *FOLLOW_TRAJECTORY)
 
 
 @draw.check(3, after=sends_a_goal, hints={
-    "Each point comes later than the one before: the first after 3 s, then 0.15 s more for each.":
+    "Each point needs a later time than the previous one: the first 3 s, then 0.15 s more for each.":
         lambda run, reason: "time_from_start" in reason,
-    "Angles beyond the limits come of degrees, or of a wrong quadrant: use atan2(y, x), radians.":
+    "Angles beyond the limits come from degrees, or from the wrong quadrant: use atan2(y, x), in radians.":
         lambda run, reason: "limits" in reason,
-    "Read the reason: it says which point or joint it is about.": otherwise,
+    "Read the reason: it names the point or the joint.": otherwise,
 })
 def can_be_followed(run: Recording, goals: list[Goal]) -> None:
     """The arm accepts it, and executes it to the end."""
@@ -45,25 +45,26 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
 
 
 @draw.check(10, after=can_be_followed, hints={
-    "That is the figure, mirrored at the x axis: look at the sign of y.":
+    "That is the figure mirrored at the x axis: check the sign of y.":
         lambda run: _comes_near(run, [(x, -y) for x, y in _figure(run)]),
-    "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.":
+    "The arm needs time to get to the first point: give it 3 s, or it lags behind the figure.":
         lambda run: _points(run)[0].time_from_start.sec < 1,
-    "The shoulder turns by half a turn between two points: where x < 0, atan(y / x) loses its sign, and "
-    "atan2(y, x) has it.":
+    "The shoulder jumps by half a turn between two points: where x < 0, atan(y / x) loses the sign; use "
+    "atan2(y, x).":
         lambda run: any(abs(after.positions[0] - before.positions[0]) > HALF_TURN
                         for before, after in itertools.pairwise(_points(run))),
-    "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "
-    "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder take away what the bent elbow adds?":
+    "It doesn't even reach the first point. Check inverse(x, y) on paper, for the arm stretched "
+    "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder subtract what the bent elbow adds?":
         lambda run: not _comes_near(run, _figure(run)[:1]),
-    "The figure has {figure} points, and the trajectory {sent}: each becomes one.": lambda run: (
+    "The figure has {figure} points, and the trajectory {sent}: make one trajectory point for "
+    "each.": lambda run: (
         len(_points(run)) < len(_figure(run)) and {"figure": len(_figure(run)), "sent": len(_points(run))}
     ),
-    "It comes near the figure, and not onto it. Are the lengths those of /robot_description? The elbow's "
-    "origin says how long the upper arm is, and the tip's how long the forearm is.": lambda run: True,
+    "It gets near the figure, but not onto it. Are the lengths those of /robot_description? The elbow's "
+    "origin gives the length of the upper arm, and the tip's that of the forearm.": lambda run: True,
 })
 def draws_the_figure(run: Recording) -> None:
-    """The tip draws the whole figure, and nothing else once it has begun, within 1.5 cm."""
+    """The tip draws the whole figure, within 1.5 cm, and nothing else once it has begun."""
     first = in_seconds(_points(run)[0].time_from_start)
     try:
         draws(run, _figure(run), tolerance=TOLERANCE)
@@ -77,8 +78,9 @@ def draws_the_figure(run: Recording) -> None:
 @draw.check(5, after=draws_the_figure)
 def keeps_off_the_table(run: Recording) -> None:
     """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
-    hint = ("To every place there are two ways to bend the arm, mirrored. Take the one whose elbow is on the "
-            "figure's side, away from the table: its angle negative where y > 0, positive where y < 0.")
+    hint = ("The arm can reach each point in two ways, which mirror each other. Take the one whose elbow is "
+            "on the figure's side, away from the table: its angle is negative where y > 0, positive where y "
+            "< 0.")
     keeps_off(run, hint)
 
 

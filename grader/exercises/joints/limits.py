@@ -34,29 +34,30 @@ class Visit(NamedTuple):
 @limits.check(2)
 def subscribes_to_both(run: Recording) -> None:
     """The node subscribes to /joint_states and to /robot_description."""
-    with hinting("All drivers speak on /joint_states; what the arm looks like is on /robot_description."):
+    with hinting("All drivers publish on /joint_states; the arm's structure is on /robot_description."):
         subscribes(run, "/joint_states", "sensor_msgs/msg/JointState")
         subscribes(run, "/robot_description", STRING)
 
 
 @limits.check(8, after=subscribes_to_both, hints={
-    "The description was sent once, before your node was there. To receive it, request durability "
+    "The description was published once, before your node was there. To receive it, request durability "
     "TRANSIENT_LOCAL.": lambda run: all(
         end.qos["durability"] == "volatile"
         for end in run.graph.subscriptions("/robot_description")
         if not end.from_course
     ),
-    "The description has no limits for it: it names {names}. Leave others alone.": lambda run, wrong: (
+    "The description has no limits for this joint: it names {names}. Ignore other "
+    "joints.": lambda run, wrong: (
         wrong.message.data not in described_limits(run) and {"names": ", ".join(described_limits(run))}
     ),
-    "That is another joint's position. Drivers list their joints in an order of their own: "
-    "for name, position in zip(msg.name, msg.position).": lambda run, wrong: _another_is_near(run, wrong),
-    "Its limits are {lower:g} and {upper:g} rad. Take them from the description of this robot; they are "
-    "radians, as the positions are, and the lower one has a sign of its own.":
+    "That is another joint's position. Each driver lists its joints in its own order: for "
+    "name, position in zip(msg.name, msg.position).": lambda run, wrong: _another_is_near(run, wrong),
+    "Its limits are {lower:g} and {upper:g} rad. Take them from this robot's description; they are in "
+    "radians, like the positions, and the lower one has its own sign.":
         lambda run, wrong: described_limits(run)[wrong.message.data]._asdict(),
 })
 def names_those_near(run: Recording) -> list[Visit]:
-    """The name of each joint that comes within 0.1 rad of a limit goes out on /near_limit, and no other."""
+    """The name of each joint that comes within 0.1 rad of a limit is sent on /near_limit, and no other."""
     messages, visits = publishes(run, NAME, STRING), _visits(run)
     for row in messages:
         if not any(visit.names([row], visit.end + SOON) for visit in visits):
@@ -68,21 +69,21 @@ def names_those_near(run: Recording) -> list[Visit]:
             raise Missed(
                 f"“{visit.name}” within {SOON:g} s of {visit.begin:.3g} s, when it comes near its limit",
                 ", ".join(text_of(row.message.data) for row in window.rows(messages)) or "nothing",
-                "Look at both limits of each joint that the description names: position - lower, and "
-                "upper - position. And remember that it was away, when it is.",
+                "Check both limits of each joint that the description names: position - lower, and "
+                "upper - position. And record when it is away from them again.",
             )
     return visits
 
 
 @limits.check(5, after=names_those_near)
 def once_for_each(run: Recording, visits: list[Visit]) -> None:
-    """Each time it comes near, it is named once, and not again as long as it stays there."""
+    """Each time a joint comes near, it is named once, and not again as long as it stays there."""
     for visit in visits:
         count = len(visit.names(run.messages(NAME), visit.end + SOON))
         if count > 1:
             expected = f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s"
-            hint = ("Remember which joints are near already: a set of names. Speak when one comes in, and "
-                    "take it out when it is away.")
+            hint = ("Store which joints are already near, in a set of names. Publish when you add one, and "
+                    "remove it when it is away again.")
             raise Missed(expected, f"{count}", hint)
 
 

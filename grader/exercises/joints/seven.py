@@ -21,14 +21,14 @@ def publishes_commands(run: Recording) -> None:
 
 
 @seven.check(4, after=publishes_commands, hints={
-    "Joints are commanded in radians: a right angle is 1.57. Publish the numbers of the task as they are.":
+    "Joints are commanded in radians: a right angle is 1.57. Publish the numbers from the task unchanged.":
         lambda run, sent: any(abs(value) > 3.2 for value in sent),
     "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
         (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
     ),
-    "After the seventh it is over: compare self.index with len(self.positions).":
+    "Stop after the seventh: compare self.index with len(self.positions).":
         lambda run, sent: sent[: len(POSITIONS)] == POSITIONS,
-    "Each call sends the same one: self.positions[self.index], and then self.index += 1.":
+    "Each call sends the same one: publish self.positions[self.index], and then self.index += 1.":
         lambda run, sent: len(set(sent)) == 1,
     "Publish self.positions[self.index], and then self.index += 1.": otherwise,
 })
@@ -47,23 +47,23 @@ def every_two_seconds(run: Recording) -> None:
     if held > HELD:
         hint = ("The timer calls send() again and again: publish one position, and return. While a callback "
                 "sleeps, its node receives nothing, not even a stop.")
-        raise Missed("a callback that returns at once", f"one that held the node for {held:.3g} s", hint)
+        raise Missed("a callback that returns at once", f"one that blocked the node for {held:.3g} s", hint)
     stamps = [row.stamp for row in run.messages(COMMANDS)]
     for number, (before, stamp) in enumerate(itertools.pairwise([run.started_at, *stamps]), start=1):
         if abs(stamp - before - PERIOD) > 0.05:
-            hint = "One timer with a period of 2.0 s calls send(), and each call publishes one position."
+            hint = "Let one timer with a period of 2.0 s call send(), and publish one position in each call."
             raise Missed(f"position {number} at {PERIOD * number:g} s", f"it at {stamp:.3g} s", hint)
 
 
 @seven.check(3, after=sends_all_seven)
 def ends_by_itself(run: Recording) -> None:
-    """When all are sent, it ends: its node is destroyed, ROS is shut down, and there is no error."""
+    """When all are sent, the program ends: its node is destroyed, ROS is shut down, and there is no error."""
     last, end = run.messages(COMMANDS)[-1].stamp, run.all_exited_at
     if run.errors:
         raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")
     if end is None or end > last + PERIOD + 0.1:
-        expected = f"the program at its end, at most {PERIOD:g} s after the last position (at {last:.3g} s)"
+        expected = f"the program to end, at most {PERIOD:g} s after the last position (at {last:.3g} s)"
         saw = f"it still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s"
         hint = ("When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
-                "rclpy.spin() returns, and main() comes to its end.")
+                "rclpy.spin() returns, and main() ends.")
         raise Missed(expected, saw, hint)

@@ -16,7 +16,8 @@ from sim.nanoseconds import in_seconds
 SOON = 0.5  # s
 SLOW = 1.5  # times as long as needed, and
 REST = 0.5  # s more, is still fine
-OVERTAKEN = "This goal took so long that the next path came before its end: see the line on the speed first."
+OVERTAKEN = ("This goal took so long that the next path arrived before it ended: fix the line about the "
+             "speed first.")
 
 trajectory = Exercise("trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher,
                       seeds=(1, 2), waits=False)
@@ -47,17 +48,17 @@ def sends_a_goal(run: Recording) -> None:
 
 
 @trajectory.check(5, after=sends_a_goal, hints={
-    "The path has radians, and so has the goal: no degrees.":
+    "The path is in radians, and so is the goal: don't convert to degrees.":
         lambda run, path, sent: any(abs(value) > 3.2 for point in sent.points for value in point.positions),
-    "Every point of the path becomes a point of the goal: a new JointTrajectoryPoint for each.":
+    "Make each point of the path a point of the goal, with a new JointTrajectoryPoint for each.":
         lambda run, path, sent: len(sent.points) != len(path.points),
-    "The path says in joint_names which number belongs to which joint, and the order differs from "
-    "path to path. Copy path.joint_names into the goal with the positions.":
+    "The path's joint_names say which number belongs to which joint, and the order differs from "
+    "path to path. Copy path.joint_names into the goal along with the positions.":
         lambda run, path, sent: list(path.joint_names) != list(sent.joint_names),
-    "Copy the positions as they are: list(point.positions).": otherwise,
+    "Copy the positions unchanged: list(point.positions).": otherwise,
 })
 def by_their_names(run: Recording) -> list[Lesson]:
-    """Each path becomes one goal: the same points, each joint under its own name."""
+    """Each path becomes one goal, with the same points, and each joint under its own name."""
     lessons = _lessons(run)
     for row, goal in lessons:
         path, sent = row.message, goal.request.trajectory
@@ -72,20 +73,20 @@ def by_their_names(run: Recording) -> list[Lesson]:
 @trajectory.check(4, after=by_their_names, hints={
     "time_from_start is not set: Duration(seconds=time).to_msg().":
         lambda run, parts, wrong: not any(part.end for part in parts),
-    "time_from_start counts from the start of the whole trajectory, and not from the point before: "
-    "it must rise from point to point. time += ...":
+    "time_from_start counts from the start of the whole trajectory, not from the previous point, so "
+    "it must grow from point to point: time += ...":
         lambda run, parts, wrong: wrong.begin and same(wrong.end, wrong.needed, 0.02),
-    "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.":
+    "Each segment takes the same time here. The longer the distance, the more time it needs: distance / 0.8.":
         lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1,
-    "Both joints turn at the same time: the way is the larger of the two, max(...), and not their sum.":
+    "Both joints turn at the same time: the distance is the larger of the two, max(...), not their sum.":
         lambda run, parts, wrong: same(wrong.end - wrong.begin, wrong.in_turn, 0.02),
-    "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
-    "the arm is now, by /joint_states and by name; and the next one where the point before is.":
+    "The distance is that of the joint that has to go farther: max(abs(...)). The first segment begins "
+    "where the arm is now, read from /joint_states by name; each later one begins at the previous point.":
         lambda run, parts, wrong: wrong.end - wrong.begin < wrong.needed,
-    "The way (rad) divided by 0.8 rad/s is the time (s); and it starts anew with each goal.": otherwise,
+    "The distance (rad) divided by 0.8 rad/s is the time (s); start again from 0 for each goal.": otherwise,
 })
 def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
-    """From point to point, and from where the arm is to the first, the faster joint turns at 0.8 rad/s."""
+    """From point to point, and from the arm's position to the first, the faster joint turns at 0.8 rad/s."""
     for _, goal in lessons:
         parts = _parts(run, goal)
         for part in parts:
@@ -100,7 +101,7 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
     """With each feedback, the larger of the two joints' errors is published on /worst_error, unsigned."""
     feedback = [row for _, goal in lessons for row in goal.feedback]
     if not feedback:
-        hint = "Without a goal that is accepted there is no feedback: see the other lines first."
+        hint = "Without an accepted goal there is no feedback: fix the other lines first."
         raise Missed("feedback of an arm that follows a path", "none", hint)
     published = publishes(run, "/worst_error", "std_msgs/msg/Float64")
     for row in feedback:
@@ -108,23 +109,23 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
         sent = [answer.message.data for answer in window.rows(published)]
         if window.is_over(run) and not any(same(value, error) for value in sent):
             expected = f"{error:.4f} on /worst_error after the feedback at {row.stamp:.3g} s"
-            hint = ("max(abs(error) for error in msg.feedback.error.positions): abs for each of them, then "
-                    "max.")
+            hint = ("Publish max(abs(error) for error in msg.feedback.error.positions): abs of each first, "
+                    "then max.")
             raise Missed(expected, f"{sent[0]:.4f}" if sent else "nothing", hint)
 
 
 @trajectory.check(5, after=by_their_names, hints={
-    "The first answer says whether the goal is accepted: if not handle.accepted, there is no result "
-    "to wait for, and that is the end.": lambda run, expected, sent: expected == "rejected",
-    "That a result came doesn't mean that it is good: future.result().status is STATUS_SUCCEEDED or "
-    "STATUS_ABORTED, and result.error_string says why.": lambda run, expected, sent: (
+    "The goal response says whether the goal is accepted: if not handle.accepted, there is no result "
+    "to wait for, so publish the outcome at once.": lambda run, expected, sent: expected == "rejected",
+    "A result doesn't mean success: check whether future.result().status is STATUS_SUCCEEDED or "
+    "STATUS_ABORTED; result.error_string says why.": lambda run, expected, sent: (
         expected.startswith("aborted") and sent and sent[0].startswith("succeeded")
     ),
-    "get_result_async() gives a future. In its callback look at future.result().status, and publish the "
-    "word; with the result's error_string if it was aborted.": otherwise,
+    "get_result_async() returns a future. In its callback check future.result().status, and publish the "
+    "word, with the result's error_string if it was aborted.": otherwise,
 })
 def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
-    """Each goal's end is on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
+    """Each goal's outcome is on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     published = publishes(run, "/outcome", "std_msgs/msg/String")
     for path, goal in lessons:
         if goal.ended is None or not Window.after(goal.ended, SOON).is_over(run):
@@ -148,7 +149,7 @@ def _lessons(run: Recording) -> list[Lesson]:
         if len(sent) != 1:
             expected = f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s"
             hint = ("Send one goal in the callback of /path, each time it is called. Don't wait there for "
-                    "the answer: a node that waits in a callback receives nothing, not even the answer.")
+                    "the response: a node that waits in a callback receives nothing, not even the response.")
             raise Missed(expected, f"{len(sent)} of them", hint)
         found.append(Lesson(path, sent[0]))
     return found

@@ -39,12 +39,13 @@ def _ignores_namespaces(run: PackageRun) -> bool:
 
 
 @convoy.check(5, guess={
-    "No namespace is put before a topic with a slash: in the program it is `drive`, and it is remapped to "
-    "cmd_vel, both without a slash.": _ignores_namespaces,
-    "It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.": lambda _: True,
+    "A topic that begins with a slash gets no namespace: the program's is `drive`, remapped to cmd_vel, "
+    "both without a slash.": _ignores_namespaces,
+    "The launch file needs two Nodes, in the namespaces left and right, with `drive` remapped to "
+    "cmd_vel.": lambda _: True,
 })
 def drives_both(run: PackageRun) -> None:
-    """`ros2 launch convoy two.launch.py` drives both robots, by /left/cmd_vel and /right/cmd_vel."""
+    """`ros2 launch convoy two.launch.py` drives both robots, through /left/cmd_vel and /right/cmd_vel."""
     for side in GAPS:
         publishes(run, f"/{side}/cmd_vel", "geometry_msgs/msg/Twist")
 
@@ -54,31 +55,32 @@ def leaves_the_third_alone(run: PackageRun) -> None:
     """The robot in the middle has no driver: it stays where it is."""
     moved = abs(run.path[-1].x - run.path[0].x)
     if moved > MOVED:
-        hint = "A program too many drives it: each Node of the launch file has a namespace, left or right."
-        raise Missed("a middle robot that stands", f"{moved:.2f} m", hint, picture="path")
+        hint = "An extra program drives it: give each Node in the launch file a namespace, left or right."
+        raise Missed("a middle robot that stands still", f"{moved:.2f} m", hint, picture="path")
 
 
 @convoy.check(3, after=drives_both)
 def right_keeps_its_distance(run: PackageRun) -> None:
     """The right robot stops 1 m before the wall, whatever the argument."""
-    _stops(run, "right", GAPS["right"], 'Its Node has parameters=[{"gap": 1.0}].')
+    _stops(run, "right", GAPS["right"], 'Give its Node parameters=[{"gap": 1.0}].')
 
 
 @convoy.check(3, after=drives_both, only="plain")
 def left_keeps_its_distance(run: PackageRun) -> None:
     """The left robot stops 0.5 m before the wall without an argument."""
-    _stops(run, "left", GAPS["left"], 'DeclareLaunchArgument("gap", default_value="0.5") says so.')
+    _stops(run, "left", GAPS["left"],
+           'Declare the default: DeclareLaunchArgument("gap", default_value="0.5").')
 
 
 @convoy.check(3, after=drives_both, only="asked")
 def left_obeys_the_argument(run: PackageRun) -> None:
     """With the argument gap:=0.8 the left robot stops 0.8 m before the wall."""
-    _stops(run, "left", REQUESTED, 'Its Node has parameters=[{"gap": LaunchConfiguration("gap")}].')
+    _stops(run, "left", REQUESTED, 'Give its Node parameters=[{"gap": LaunchConfiguration("gap")}].')
 
 
 @convoy.check(2)
 def names_its_needs(run: PackageRun) -> None:
-    """package.xml names each ROS package that its modules and its launch file import."""
+    """package.xml names every ROS package that its modules and its launch file import."""
     names_what_it_imports(run)
 
 

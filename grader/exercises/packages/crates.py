@@ -38,7 +38,8 @@ def can_be_read(run: PackageRun) -> Read:
     there = [path.removeprefix(f"{NAME}/") for path in sources if path.rpartition(".")[2] in PARTS]
     for path in FILES:
         if path not in there:
-            hint = "The folder says of what kind it is, and a file's name has CapitalLetters and no _."
+            hint = ("The folder decides the kind: msg, srv or action. File names are written in "
+                    "CapitalLetters, without _.")
             raise Missed(f"ws/src/{NAME}/{path}", f"{', '.join(there) or 'no definition'} there", hint)
     return {path: read_definition(path, sources[f"{NAME}/{path}"], NAME) for path in FILES}
 
@@ -52,10 +53,10 @@ def has_a_message(run: PackageRun, read: Read) -> None:
 
 @crates.check(2, after=can_be_read)
 def has_states(run: PackageRun, read: Read) -> None:
-    """Crate has names for the two states."""
+    """Crate has constants for the two states."""
     found = read[CRATE]["message"].constants
     if sorted(found) != sorted(STATES):
-        hint = "A constant is a type, a name and its value, with = between them."
+        hint = "Write a constant as type, name, = and value."
         raise Missed(f"{' and '.join(STATES)}", ", ".join(found) or "no constant", hint)
 
 
@@ -74,7 +75,7 @@ def has_an_action(run: PackageRun, read: Read) -> None:
 
 @crates.check(2)
 def describes_itself(run: PackageRun) -> None:
-    """package.xml names what generates code from the definitions, and the package whose message they use."""
+    """package.xml names the code generator for the definitions, and the package whose message they use."""
     tags = package_of(run).package_xml.tags
     for name, ways in NEEDS.items():
         if not any(all(name in tags.get(tag, ()) for tag in way.split()) for way in ways):
@@ -85,26 +86,27 @@ def describes_itself(run: PackageRun) -> None:
 
 @crates.check(4)
 def makes_types(run: PackageRun) -> None:
-    """CMakeLists.txt finds what is needed, and names each definition."""
+    """CMakeLists.txt finds the packages it needs, and lists each definition."""
     sources = package_of(run).sources
     commands = read_commands(sources[f"{NAME}/CMakeLists.txt"])
     names = [command.name for command in commands]
     if "cmake_minimum_required" not in names[:1]:
-        hint = "It is the first command, and without it CMake goes no further."
+        hint = "Make it the first command: without it CMake stops."
         raise _line("cmake_minimum_required(VERSION 3.10)", "none at the beginning", hint)
     if ("project", NAME) not in {(it.name, *it.words[:1]) for it in commands}:
-        raise _line(f"project({NAME})", "none with this name", "It is the name that package.xml says, too.")
+        raise _line(f"project({NAME})", "none with this name", "Use the same name as in package.xml.")
     if GENERATOR not in names:
-        raise _line(f"{GENERATOR}(...)", "none", "It is the command that makes types of definitions.")
+        raise _line(f"{GENERATOR}(...)", "none", "Add it: this command generates types from the definitions.")
     place = names.index(GENERATOR)
     found = [it.words[0] for it in commands[:place] if it.name == "find_package" and it.words]
     for name in ("rosidl_default_generators", USED):
         if name not in found:
             saw = f"{', '.join(found) or 'nothing'} before {GENERATOR}"
-            raise _line(f"find_package({name} REQUIRED)", saw, "CMake finds only what find_package names.")
+            raise _line(f"find_package({name} REQUIRED)", saw,
+                        "CMake finds only what you name in find_package: add a line for each.")
     _hands_over(commands[place], sources)
     if "ament_package" not in names[place:]:
-        hint = "Without it, what was installed isn't found."
+        hint = "Without it, other packages can't find what was installed."
         raise _line("ament_package() at the end", "none there", hint)
 
 
@@ -113,11 +115,11 @@ def types_are_built(run: PackageRun) -> None:
     """The package is built, and programs can import its three types."""
     built = package_of(run).built
     if built.problem:
-        hint = "A line above says why; or call colcon build in ws, and read its first error."
-        raise Missed("a package of types that can be built", built.problem, hint)
+        hint = "A line above says why; or run colcon build in ws, and read its first error."
+        raise Missed("an interface package that can be built", built.problem, hint)
     absent = [path for path in FILES if not type_hash(built.files, NAME, path.rpartition(".")[0])]
     if absent:
-        hint = "Types are built for the definitions that are handed over, and for no other."
+        hint = "Types are built only for the definitions that you list in the command: list all three."
         raise Missed("three types that can be imported", f"none for {', '.join(absent)}", hint)
 
 
@@ -125,22 +127,22 @@ def _hands_over(command: CMakeCommand, sources: Sources) -> None:
     """Miss a definition that is left out, one that isn't there, or the package whose message they use."""
     target, words = command.words[:1], command.words[1:]
     if not target or "/" in target[0]:
-        hint = "The first word is the package's name, and the files come after it."
+        hint = "The first argument is the package's name; the files come after it."
         raise Missed(f"${{PROJECT_NAME}} first in {GENERATOR}", *(target or ["nothing"]), hint)
     end = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
     named = words[:end]
     left_out = [path for path in FILES if path not in named]
     if left_out:
         credit = 0.5 if len(left_out) < len(FILES) else 0.0
-        hint = "A file that isn't named there isn't installed. Write folder and file as they are spelled."
+        hint = "A file that isn't listed there isn't built. Spell the folder and the file exactly."
         expected = f"{', '.join(FILES)} in {GENERATOR}"
         raise Missed(expected, ", ".join(named) or "none", hint, credit=credit)
     there = {*FILES, *(path.removeprefix(f"{NAME}/") for path in sources)}
     absent = next((path for path in named if "/" in path and path not in there), "")
     if absent:
-        raise Missed(f"files that are there in {GENERATOR}", absent, "Leave it out.", credit=0.5)
+        raise Missed(f"only files that exist in {GENERATOR}", absent, "Leave it out.", credit=0.5)
     if USED not in words[end:]:
-        hint = "Crate uses a message of that package, and its types are made of that package's."
+        hint = "Crate uses a message from that package, so its types depend on that package's."
         saw = " ".join(words[end:]) or "no DEPENDENCIES"
         raise Missed(f"DEPENDENCIES {USED} in {GENERATOR}", saw, hint, credit=0.5)
 
@@ -165,7 +167,7 @@ def _misplaced(found: Mapping[str, InterfacePart], name: str, wanted: Mapping[st
         places = [other for other, fields in wanted.items() if field in fields]
         if places and name not in places:
             whole = " and the ".join(places)
-            return f"`{field}` belongs to the {whole}: look where the lines with --- stand."
+            return f"`{field}` belongs to the {whole}: check where the --- lines are."
     return ""
 
 
@@ -175,10 +177,10 @@ def _differs(there: tuple[str, ...], wanted: tuple[str, ...]) -> str:
     for field in wanted:
         name = field.rpartition(" ")[2]
         if name not in names:
-            return f"`{field}` is missing. Compare names with the task, letter by letter."
+            return f"`{field}` is missing. Compare the names with the task, letter by letter."
         if names[name] != field:
-            return f"Write `{field}`: with another type, programs don't understand each other."
+            return f"Write `{field}`: with a different type, programs can't communicate."
     for field in there:
         if field not in wanted:
-            return f"The task doesn't ask for `{field}`: leave it out."
-    return "Put them in this order: it is the one in which they are sent."
+            return f"`{field}` isn't in the task: leave it out."
+    return "Put them in this order: fields are sent in the order of the definition."

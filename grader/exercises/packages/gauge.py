@@ -14,11 +14,11 @@ from grader.workspace.package import PackageRun
 
 DEGREES = "/celsius"
 MODULE, PLACE = "gauge.convert", "gauge/gauge/convert.py"
-BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) where a message comes."
-EDGE = "0 V and 3.3 V belong to the range, and 0 degrees is a temperature: `if value is not None:`."
+BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) in the callback."
+EDGE = "0 V and 3.3 V are in range, and 0 degrees is a temperature: test `if value is not None:`."
 SOON, SAME = 0.2, 0.05  # s, degrees
 
-gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
+gauge = Exercise("gauge", "Your own module", package="gauge", scenarios=[
     Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
              companions=lambda seed: [partial(VoltageProbe, seed)]),
 ], near_misses=[partial(entry_points, commands=["gauge"])])
@@ -33,7 +33,7 @@ def publishes_degrees(run: PackageRun) -> None:
 
 @gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
-    """Celsius are 100 times the volts, minus 50; a voltage outside 0 to 3.3 V gives no message."""
+    """Celsius is 100 times the voltage, minus 50; a voltage outside 0 to 3.3 V gives no message."""
     for voltage in voltages(run):
         volts, found = voltage.value.data, voltage.values()
         saw = f"{found[0]:.1f}" if found else "nothing"
@@ -55,7 +55,8 @@ def has_a_module(run: PackageRun) -> None:
     names = [node.name for node in nodes if isinstance(node, ast.FunctionDef)]
     if "celsius" not in names:
         saw = f"{', '.join(names) or 'no function'} there" if PLACE in sources else "no such file"
-        raise Missed(f"a function celsius in ws/src/{PLACE}", saw, "Put the arithmetic there, and only that.")
+        raise Missed(f"a function celsius in ws/src/{PLACE}", saw,
+                     "Put the arithmetic there, and nothing else.")
     modules = [path for path in sources if path.startswith("gauge/gauge/") and path != PLACE]
     found = {name for path in modules for name in imports(sources[path])}
     if not found & {MODULE, f"{MODULE}.celsius", ".convert", ".convert.celsius"}:
@@ -68,5 +69,5 @@ def module_is_plain(run: PackageRun) -> None:
     """gauge/convert.py doesn't use ROS: it can be tested without a robot."""
     found = [name for name in imports(package_of(run).sources[PLACE]) if ROS.fullmatch(name.split(".")[0])]
     if found:
-        hint = "Give the function a number, and let it return one. Messages stay in the node."
+        hint = "The function takes a number and returns a number. Leave the messages to the node."
         raise Missed("no import of ROS in convert.py", found[0], hint)

@@ -1,4 +1,4 @@
-"""A package from nothing: three files, and what colcon makes of them."""
+"""A package from scratch: three files, and what colcon makes of them."""
 
 from functools import partial
 
@@ -11,7 +11,7 @@ from grader.workspace.package import PackageRun
 
 TOPIC = "/greeting"
 
-greeter = Exercise("greeter", "A package from nothing", package="greeter",
+greeter = Exercise("greeter", "A package from scratch", package="greeter",
                    scenarios=[Scenario(seconds=6, prepare=partial(ros2_run, "greeter", "hello"))],
                    near_misses=[partial(entry_points, commands=["hello"])])
 
@@ -33,17 +33,17 @@ def counts(run: PackageRun) -> None:
     """The greetings are hello 1, hello 2, hello 3 and so on."""
     for number, row in enumerate(run.messages(TOPIC), 1):
         if row.message.data != f"hello {number}":
-            hint = "Count in the node: a number that is 1 at first, and 1 more after each message."
+            hint = "Keep a count in the node: start at 1, and add 1 after each message."
             raise Missed(f"“hello {number}”", f"“{row.message.data[:60]}” at {row.stamp:g} s", hint)
 
 
 @greeter.check(3)
 def names_its_needs(run: PackageRun) -> None:
-    """package.xml names each ROS package that the program imports."""
+    """package.xml names every ROS package that the program imports."""
     names_what_it_imports(run)
 
 
 @greeter.check(3)
 def brings_its_description(run: PackageRun) -> None:
-    """setup.py installs package.xml, and the marker by which ROS finds the package."""
+    """setup.py installs package.xml, and the marker that lets ROS find the package."""
     installs_by_itself(run)

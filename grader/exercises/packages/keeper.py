@@ -16,9 +16,10 @@ from sim.evidence import Call, Recording
 
 LOADED = "/full"
 SOON = 0.2  # s
-NEWEST = "A crate that is scanned again has new values: self.crates[msg.label] = msg replaces the old ones."
+NEWEST = ("A crate that is scanned again has new values: replace the old ones with self.crates[msg.label] = "
+          "msg.")
 FORWARD = "In the callback of /crates: self.full.publish(msg) if msg.state is Crate.FULL."
-LIMIT = "A crate with exactly this mass is found, too: crate.mass <= request.heaviest."
+LIMIT = "A crate of exactly this mass counts, too: crate.mass <= request.heaviest."
 
 keeper = Exercise("keeper", "A node that uses your messages", package="crate_keeper", uses=INTERFACES,
                   scenarios=[
@@ -31,13 +32,13 @@ scanned = Stimuli(SCANNED, answered_on=LOADED, within=SOON, what="crates on /cra
 @keeper.check(2)
 def publishes_crates(run: PackageRun) -> None:
     """`ros2 run crate_keeper keeper` publishes messages of your type Crate on /full."""
-    with hinting("from crate_interfaces.msg import Crate, and a publisher for /full."):
+    with hinting("Write from crate_interfaces.msg import Crate, and create a publisher for /full."):
         publishes(run, LOADED, "crate_interfaces/msg/Crate")
 
 
 @keeper.check(4, after=publishes_crates)
 def forwards_full_crates(run: PackageRun) -> None:
-    """Each crate on /crates that is FULL is published on /full as it is, and no other."""
+    """Each crate on /crates that is FULL is published on /full unchanged, and no other."""
     for crate in scanned(run):
         what = f"{crate.value.label} ({crate.value.mass:g} kg)"
         if crate.value.state != FULL:
@@ -46,7 +47,7 @@ def forwards_full_crates(run: PackageRun) -> None:
         elif crate.value not in [response.message for response in crate.responses]:
             saw = crate.seen("label")
             same = [response for response in crate.responses if response.message.label == crate.value.label]
-            hint = "Publish the message that came, with all of its fields." if same else FORWARD
+            hint = "Publish the message that you received, with all of its fields." if same else FORWARD
             expected = f"{what} on {LOADED} within {SOON:g} s of {crate.stamp:.3g} s"
             raise Missed(expected, f"{saw}, with other fields" if same else saw, hint)
 
@@ -58,17 +59,17 @@ def offers_to_find(run: PackageRun) -> None:
 
 
 @keeper.check(5, after=offers_to_find, hints={
-    "Nothing was found: put each crate that is light enough into response.crates.":
+    "The response is empty: put each crate that is light enough into response.crates.":
         lambda run, call: _found(call) == [],
     NEWEST: lambda run, call: _finds_old_values(run, call),
     LIMIT: lambda run, call: _left_out(run, call, lambda crate: crate.mass == call.request.heaviest),
-    "An EMPTY crate is found, too: only /full is for those that are FULL.":
+    "EMPTY crates belong in the response, too: only /full is limited to the FULL ones.":
         lambda run, call: _left_out(run, call, lambda crate: crate.state != FULL),
     "heaviest is a limit: leave out what is heavier.":
         lambda run, call: any(crate.mass > call.request.heaviest for crate in _crates(call)),
 })
 def finds_crates(run: PackageRun) -> None:
-    """Each response has the crates that are not heavier, with the values that were scanned last."""
+    """Each response has the crates that are not heavier, with their most recently scanned values."""
     for call in requests_from_course(run, FIND, at_least=2):
         wanted = sorted(crate.label for crate in _right(run, call))
         found = _found(call)
@@ -80,7 +81,7 @@ def finds_crates(run: PackageRun) -> None:
 
 @keeper.check(1)
 def names_the_types(run: PackageRun) -> None:
-    """package.xml names each package that the program imports, crate_interfaces as well."""
+    """package.xml names every package that the program imports, including crate_interfaces."""
     names_what_it_imports(run)
 
 

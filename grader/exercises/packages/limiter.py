@@ -15,8 +15,8 @@ from sim.evidence import Recording
 TESTS, WORKFLOWS = "limiter/test/", "limiter/.github/workflows/"
 ALL = len(RIGHT) + len(WRONG)
 ENOUGH = 9  # of the wrong ones: no line of the contract can be left out
-TOO_STRICT = ("Ask no more than the contract says: the zero after silence may be 0.1 s late, and the message "
-              "of /hold is free.")
+TOO_STRICT = ("Require no more than the contract does: the zero after silence may be 0.1 s late, and /hold "
+              "may respond with any message.")
 
 
 class TestVerdict(NamedTuple):
@@ -37,11 +37,11 @@ limiter = Exercise("limiter", "A package with tests", package="limiter", scenari
 @limiter.check(2, hints={
     "pytest finds files test_*.py in test/, and functions test_... in them.":
         lambda run, own: own is not None and not own.tests,
-    "A test failed on the limiter that you have. Run colcon test in a terminal to see why.": otherwise,
+    "A test failed on your own limiter. Run colcon test in a terminal to see why.": otherwise,
 })
 def tests_pass_on_your_node(run: PackageRun) -> TestVerdict:
     """The package has tests, and they pass on its own limiter."""
-    with hinting("Each test needs its own time: wait for what should come, and no longer than you have to."):
+    with hinting("Your tests take too long: wait for what should arrive, and no longer than you have to."):
         publishes(run, VERDICTS, "std_msgs/msg/String")
     own = _verdicts(run)[OWN]
     if not own.passed or not own.tests:
@@ -51,12 +51,13 @@ def tests_pass_on_your_node(run: PackageRun) -> TestVerdict:
 
 @limiter.check(3, after=tests_pass_on_your_node)
 def passes_what_is_right(run: PackageRun, own: TestVerdict) -> None:
-    """The tests pass on all three right limiters, and fail on one of the wrong ones."""
+    """The tests pass on all three correct limiters, and fail on at least one of the wrong ones."""
     for right, verdict in _judged(run):
         if right and not verdict.passed:
             raise Missed(f"candidate {verdict.name} passing: it is right", verdict.failed, TOO_STRICT)
     if all(verdict.passed for _, verdict in _judged(run)):
-        hint = "A test that asserts nothing passes everything. What must come on /speed, and how often?"
+        hint = ("A test that asserts nothing passes everything. What must be published on /speed, and how "
+                "often?")
         raise Missed("a candidate that fails, of ten wrong ones", "all passed", hint)
 
 
@@ -65,18 +66,19 @@ def catches_what_is_wrong(run: PackageRun, own: TestVerdict, _: None) -> None:
     """The tests fail on at least nine of the ten wrong limiters."""
     caught = sum(not verdict.passed for right, verdict in _judged(run) if not right)
     if caught < ENOUGH:
-        hint = "Each line of the contract is a test: both signs, inf, nan, another limit, silence."
+        hint = "Write a test for each line of the contract: both signs, inf, nan, another limit, silence."
         expected = f"{ENOUGH} or more of {len(WRONG)} caught"
         raise Missed(expected, f"{caught}", hint, credit=caught / len(WRONG))
 
 
 @limiter.check(4)
 def runs_with_each_push(run: PackageRun) -> None:
-    """A workflow in .github/workflows builds the package and runs its tests, and is red if one fails."""
+    """A workflow in .github/workflows builds the package and runs its tests, and fails if one fails."""
     sources = package_of(run).sources
     found = [path for path in sources if path.startswith(WORKFLOWS) and path.endswith((".yml", ".yaml"))]
     if not found:
-        raise Missed(f"ws/src/{WORKFLOWS}test.yml", "no such file", "GitHub looks for workflows there.")
+        raise Missed(f"ws/src/{WORKFLOWS}test.yml", "no such file",
+                     "GitHub looks for workflows there: put the file in that folder.")
     require_tests(read_workflow(found[0], sources[found[0]]))
 
 
@@ -95,6 +97,6 @@ def _judged(run: Recording) -> list[tuple[bool, TestVerdict]]:
     found, truth = _verdicts(run), candidates(run.seed)
     for number in range(1, len(truth) + 1):
         if str(number) not in found:
-            hint = "A wrong limiter may publish nothing: a loop that waits for a message needs an end."
+            hint = "A wrong limiter may publish nothing: give each loop that waits for a message a timeout."
             raise Missed(f"verdicts on {len(truth)} candidates", f"none on candidate {number}", hint)
     return [(right, found[str(number)]) for number, (right, _) in enumerate(truth, 1)]

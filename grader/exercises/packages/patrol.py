@@ -26,7 +26,7 @@ patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=SCEN
 def program_runs(run: PackageRun) -> None:
     """`ros2 run patrol patrol` publishes Twist messages on /cmd_vel, at 0.2 m/s."""
     publishes(run, "/cmd_vel", TWIST)
-    _drives_at(run, "/cmd_vel", ALONE, "patrol/speeds.py has the speed.")
+    _drives_at(run, "/cmd_vel", ALONE, "The speed is in patrol/speeds.py.")
 
 
 @patrol.check(5, only="launch")
@@ -37,20 +37,20 @@ def launch_file_runs(run: PackageRun) -> None:
 
 @patrol.check(3, after=launch_file_runs, only="launch")
 def settings_hold(run: PackageRun) -> None:
-    """There it drives at 0.15 m/s, as config/patrol.yaml says."""
-    hint = "The file begins with the node's name or /**, then comes ros__parameters with two underscores."
+    """That robot drives at 0.15 m/s, as config/patrol.yaml says."""
+    hint = "The file begins with the node's name or /**, followed by ros__parameters with two underscores."
     _drives_at(run, "/scout/cmd_vel", LAUNCHED, hint)
 
 
 @patrol.check(2)
 def names_its_needs(run: PackageRun) -> None:
-    """package.xml names each ROS package that its modules and its launch file import."""
+    """package.xml names every ROS package that its modules and its launch file import."""
     names_what_it_imports(run)
 
 
 @patrol.check(2)
 def installs_what_it_has(run: PackageRun) -> None:
-    """setup.py installs package.xml, and the marker by which ROS finds the package."""
+    """setup.py installs package.xml, and the marker that lets ROS find the package."""
     installs_by_itself(run)
 
 

@@ -38,15 +38,16 @@ def shows(run: PackageRun) -> None:
         text = f"{temperature.value.data:.1f}"
         if not any(text in shown for shown in temperature.values()):
             saw = temperature.seen() if not temperature.responses else f"“{temperature.values()[0][:60]}”"
-            raise Missed(f"a text with {text} within {SOON:g} s", saw, "Start what was there, unchanged.")
+            raise Missed(f"a text with {text} within {SOON:g} s", saw,
+                         "Start the original programs, unchanged.")
 
 
 @station.check(5)
 def has_these_commands(run: PackageRun) -> None:
-    """The package has these two commands and no other."""
+    """The package has these two commands and no others."""
     programs = package_of(run).built.programs
     found = sorted(path.rpartition("/")[2] for path in programs if path.startswith("lib/station/"))
     others = [name for name in found if name not in COMMANDS]
     if others or len(found) != len(COMMANDS):
-        hint = "One line in 'console_scripts' for each command, and none for what isn't one."
+        hint = "Write one line in 'console_scripts' for each command, and none for anything else."
         raise Missed(f"the commands {' and '.join(COMMANDS)}", ", ".join(found) or "none", hint)

@@ -117,8 +117,8 @@ def _why_no_circle(run: Recording, turned: float) -> str:
     """The usual reasons for another path."""
     turns = [turn for _, turn in series(run, COMMANDS, "angular.z")]
     if not any(turns):
-        return ("It never turns: angular.z is the turning speed, in rad/s. (angular.x and y do nothing on the "
-                "ground.)")
+        return ("It never turns: angular.z is the turning speed, in rad/s. (angular.x and y do nothing on "
+                "the ground.)")
     if turned < 0:
         return "It turns right. A positive angular.z turns left."
     if not any(speed for _, speed in series(run, COMMANDS, "linear.x")):

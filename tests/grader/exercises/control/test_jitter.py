@@ -135,7 +135,7 @@ def test_ten_messages_are_enough_and_nine_are_none_of_the_students_fault():
             [int(late > 0.01) for late in LATE],
             "You count each message separately: add them up, self.late += 1.",
         ),
-        ("/late", [n + 1 - count for n, count in enumerate(COUNTS)], "Those came in time."),
+        ("/late", [n + 1 - count for n, count in enumerate(COUNTS)], "Those arrived in time: count only the late ones."),
         ("/late", [count + 1 for count in COUNTS], "Count those whose latency is above 0.01 s, from the start on."),
         ("/late", [0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 3], "Count those whose latency is above 0.01 s, from the start on."),
     ],

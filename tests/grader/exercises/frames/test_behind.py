@@ -14,6 +14,6 @@ def test_a_run_that_ends_early_keeps_no_gap():
         keeps_the_gap(Recording(path=path, tracks={"leader": leader}))
     assert (missed.value.expected, missed.value.saw, missed.value.hint) == (
         "a robot that follows until 9 s and longer",
-        "the run ended before",
+        "the run ended earlier",
         "",
     )
