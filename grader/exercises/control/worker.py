@@ -19,7 +19,7 @@ ASIDE = ("A slow callback needs its own callback group, and the node needs a Mul
          "one alone changes nothing.")
 
 worker = Exercise(
-    "worker", "Off the main thread", world=work_cart, seconds=10, companions=[Camera], seeds=(1,
+    "worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1,
                                                                                               2), waits=False
 )
 pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")

@@ -18,7 +18,7 @@ BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) 
 EDGE = "0 V and 3.3 V are in range, and 0 degrees is a temperature: test `if value is not None:`."
 SOON, SAME = 0.2, 0.05  # s, degrees
 
-gauge = Exercise("gauge", "Your own module", package="gauge", scenarios=[
+gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
     Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
              companions=lambda seed: [partial(VoltageProbe, seed)]),
 ], near_misses=[partial(entry_points, commands=["gauge"])])
