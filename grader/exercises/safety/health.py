@@ -132,7 +132,8 @@ def _level_hint(one: PartReport) -> str:
         return ("0 is a number, too: ask whether there is one, `name in self.numbers`, and not whether it is "
                 "true.")
     if one.level == STALE:
-        return "New messages did arrive: store the time of the last one, in seconds, separately for each part."
+        return ("New messages did arrive: store the time of the last one, in seconds, separately for each "
+                "part.")
     if one.number != round(one.number) and LEVELS[one.name](round(one.number)) == one.level:
         return "Compare the number as it came. To round is for the text, and comes after that."
     if one.name == "battery":
