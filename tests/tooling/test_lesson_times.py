@@ -8,11 +8,6 @@ import pytest
 from tests.tooling.lesson_times import DEEPEST, LIMIT, count, lessons
 
 NEAR = 10  # minutes between the time that a lesson shows and its estimate
-# Still to be split.
-TOO_LONG = (
-    "08_joints/lesson",
-    "13_delivery/lesson",
-)
 
 
 def notebook(tmp_path, *cells):
@@ -31,9 +26,7 @@ def test_a_lesson_shows_the_time_that_it_takes(lesson):
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.name)
 def test_a_lesson_fits_in_one_sitting(lesson):
-    assert (lesson.minutes > LIMIT or lesson.shown_minutes > LIMIT) == (lesson.name in TOO_LONG), (
-        lesson.minutes
-    )
+    assert max(lesson.minutes, lesson.shown_minutes) <= LIMIT
 
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.name)

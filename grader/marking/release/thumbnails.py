@@ -30,6 +30,7 @@ SHOWN = {
     "05_sensing/guarding": ("whole-run", "world"),
     "06_navigator/lesson": ("avoid-maze-run", "world"),
     "06_navigator/navigating": ("whole-run", "world"),
+    "13_delivery/faults": ("wrong-run", "world"),
 }
 DRAWINGS = {"plot_graph": "graph", "plot_logs": "log"}  # by the function of the cell's last line
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
