@@ -35,6 +35,9 @@ course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*",
 # The release is under version control, so it has the one form of our notebooks.
 c.GenerateAssignment.post_convert_hook = "grader.marking.release.make_exercises.tidy"
 
+# On a busy machine a kernel needs long to start, in seconds.
+c.Execute.startup_timeout = 600
+
 # A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
 c.Execute.timeout = 60
 c.Validator.Execute.timeout = 30

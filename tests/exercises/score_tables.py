@@ -137,7 +137,8 @@ def notebook_run(folder: str, assignment: str) -> NotebookNode:
 def _run(beside: Path, stem: str) -> str:
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(beside, Path(place, beside.name)))  # lessons write files
-        notebook = nbformat.read(next(copy.glob(f"{stem}.ipynb")), 4)
+        [path] = copy.glob(f"{stem}.ipynb")
+        notebook = nbformat.read(path, 4)
         notebook_client(notebook, 600).execute(cwd=str(copy))
     return nbformat.writes(notebook)
 

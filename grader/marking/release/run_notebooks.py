@@ -18,6 +18,7 @@ from nbformat import NotebookNode
 from nbgrader.utils import determine_grade, is_grade
 
 SECONDS_PER_CELL = 300  # only against hanging: a busy machine is slow
+KERNEL_START = 600  # s, likewise
 KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns about its open ports
 
 
@@ -99,7 +100,8 @@ def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> N
 
     While nbclient answers a widget's messages, it may miss that the cell is done, and wait until the limit.
     """
-    client = NotebookClient(notebook, timeout=seconds, kernel_name="python3", allow_errors=True, **options)
+    options = {"kernel_name": "python3", "allow_errors": True, "startup_timeout": KERNEL_START, **options}
+    client = NotebookClient(notebook, timeout=seconds, **options)
     client.comm_open_handlers.clear()
     return client
 
