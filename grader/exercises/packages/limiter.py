@@ -58,7 +58,7 @@ def passes_what_is_right(run: PackageRun, own: TestVerdict) -> None:
     if all(verdict.passed for _, verdict in _judged(run)):
         hint = ("A test that asserts nothing passes everything. What must be published on /speed, and how "
                 "often?")
-        raise Missed("a candidate that fails, of ten wrong ones", "all passed", hint)
+        raise Missed("at least one of the ten wrong candidates to fail", "all passed", hint)
 
 
 @limiter.check(9, after=(tests_pass_on_your_node, passes_what_is_right))

@@ -45,7 +45,7 @@ def passes_what_is_right(run: Recording) -> list[CandidateVerdict]:
             raise Missed(f"candidate {one.number} passing: it is right", "failed", TOO_STRICT)
     if all(one.passed for one in found):
         hint = "A test that asserts nothing passes everything. What must be true of the speed you get?"
-        raise Missed("a candidate that fails, of ten wrong ones", "all passed", hint)
+        raise Missed("at least one of the ten wrong candidates to fail", "all passed", hint)
     return found
 
 
