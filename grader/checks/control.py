@@ -110,7 +110,7 @@ def overshoots(run: Recording, target: float, *, most: float) -> float:
 
 def keeps_to_limits(run: Recording, most: float) -> None:
     """All efforts are numbers from -most to most, N. Raises Missed for the first that isn't."""
-    hint = f"Cut it before you publish it: max(-{most:g}, min({most:g}, effort))."
+    hint = f"Clip it before you publish it: max(-{most:g}, min({most:g}, effort))."
     try:
         within(run, EFFORT, "data", -most, most, unit="N")
     except Missed as missed:

@@ -184,7 +184,7 @@ def test_speeds_may_fall_at_once():
 
 def test_backwards_speeds_grow_by_a_step_too():
     backwards = [-0.2] * 40
-    hint = "Backwards is as fast as forwards"
+    hint = "The same limits apply backwards"
     assert missed("speeds_up_gently", backwards, [-0.1, *ramp(-0.2)[1:]]) == (
         GENTLY,
         "0 and then -0.1 m/s at 0.05 s",
@@ -195,7 +195,7 @@ def test_backwards_speeds_grow_by_a_step_too():
 def test_from_forwards_to_backwards_the_step_is_counted_from_0():
     turned = ending(STEADY, -0.1)
     assert passes("speeds_up_gently", turned, ending(RAMP, -0.025))
-    hint = "From forwards to backwards it goes through 0"
+    hint = "From forwards to backwards the speed passes through 0"
     assert missed("speeds_up_gently", turned, ending(RAMP, -0.03)) == (GENTLY, "0.2 and then -0.03 m/s at 2 s", hint)
 
 
@@ -205,7 +205,7 @@ def test_a_request_of_0_is_obeyed_at_once_but_for_a_thousandth():
     assert missed("stops_at_once", stop, ending(RAMP, 0.0011)) == (
         "linear.x 0 m/s at 2 s, for 0",
         "0.0011",
-        "A limit on braking makes the way to stop longer",
+        "A limit on braking makes the stopping distance longer",
     )
     assert verdict("stops_at_once", stop, ending(RAMP, -0.0011)).unsafe
 
