@@ -18,6 +18,7 @@ LINES, VALUE = "type each command on a line of its own", "type the value itself"
 OUTPUT, ANOTHER = "leave it out", "open another terminal for the next command"
 INSTEAD = dict.fromkeys(("&&", ";", "||"), LINES) | dict.fromkeys("$`", VALUE)
 INSTEAD |= dict.fromkeys(("|", ">", ">>", "2>", "<"), OUTPUT) | {"&": ANOTHER}
+LONGEST = 30  # lines of one command
 QUOTES = "put quotes round a value that has it"
 
 
@@ -34,12 +35,16 @@ class Line(NamedTuple):
 
 
 def lines_of(text: str) -> Iterator[Line]:
-    """The commands of a text. After an open quote or a backslash, one continues in the next line."""
+    """The commands of a text. After an open quote or a backslash, one continues in the next line.
+
+    One of more lines than any message needs ends there, and its quote is open: each line is read again with
+    those that come after it.
+    """
     terminal, typed, first = "1", "", 1
     for number, line in enumerate(text.splitlines(), 1):
         first = first if typed else number
         typed += f"{line}\n"
-        if typed.endswith("\\\n") or _is_open(typed):
+        if number - first < LONGEST and (typed.endswith("\\\n") or _is_open(typed)):
             continue
         heading = HEADING.fullmatch(typed.strip())
         terminal = heading[1] if heading else terminal

@@ -228,6 +228,14 @@ def test_lines_have_terminals_and_numbers():
     ]
 
 
+def test_a_quote_that_is_never_closed_ends_after_thirty_lines():
+    first, *others = lines_of("ros2 topic list '\n" + "ls\n" * 5_000)
+    assert (first.number, first.text.count("\n")) == (1, 30)
+    assert [line.text for line in others] == ["ls"] * (5_000 - 30)
+    with pytest.raises(InvalidLine, match="a quote that is opened has to be closed"):
+        words_of(first.text)
+
+
 def test_a_value_in_quotes_is_one_word():
     assert words_of("ros2 x \"{a: 'b|c'}\" '$d' # e") == ["ros2", "x", "{a: 'b|c'}", "$d"]
     with pytest.raises(InvalidLine, match=r"^`>` needs a shell"):
