@@ -1,5 +1,7 @@
 """The course's own notebooks in JupyterLab, as a student uses them."""
 
+import re
+
 import pytest
 
 from tests.browser.lab import ROOT
@@ -43,7 +45,8 @@ def test_an_assignment_that_is_not_started_runs_without_red_and_gives_no_points(
 def test_validate_accepts_the_solution(open_lab, notebook):
     with open_lab(f"solved/{notebook}") as lab:
         rows = lab.validate()
-    assert rows[-1] == "Total | 100 of 100 | "
+    points, most = re.fullmatch(r"Total \| (\d+) of (\d+) \| ", rows[-1]).groups()
+    assert points == most
     assert all(row.endswith(" | ✔") for row in rows[:-1])
 
 
