@@ -18,8 +18,8 @@ def no_goal_response(recording: Recording) -> str:
     if not _warned(recording, _NO_GOAL_RESPONSE):
         return ""
     return (
-        "A goal callback returned something else than a GoalResponse, and so the goal was rejected: "
-        "return GoalResponse.ACCEPT or GoalResponse.REJECT."
+        "A goal callback returned something other than a GoalResponse, so the goal was rejected: return "
+        "GoalResponse.ACCEPT or GoalResponse.REJECT."
     )
 
 
@@ -29,8 +29,8 @@ def no_ending(recording: Recording) -> str:
     if goal is None or not _warned(recording, _NO_ENDING):
         return ""
     return (
-        f"The execute callback of {goal.action} returned without saying how the goal ended, which counts as "
-        "aborted: call goal_handle.succeed() before you return the result."
+        f"The execute callback of {goal.action} returned without setting the goal's final state, which "
+        "counts as aborted: call goal_handle.succeed() before you return the result."
     )
 
 
@@ -39,10 +39,10 @@ def cancel_ignored(recording: Recording) -> str:
     for goal in recording.goals:
         agreed = goal.at("canceling")
         if agreed is not None and goal.status != "canceled" and _went_on(goal, agreed, recording):
-            went_on = f"went on until it {_past(goal)}" if goal.over else "went on all the same"
+            went_on = f"carried on until it {_past(goal)}" if goal.over else "carried on anyway"
             return (
-                f"{goal.server} agreed at {agreed:.3g} s to cancel the goal of {goal.action}, and {went_on}. "
-                "Look at goal_handle.is_cancel_requested in the loop: when it is True, call "
+                f"{goal.server} agreed at {agreed:.3g} s to cancel the goal of {goal.action}, but {went_on}. "
+                "Check goal_handle.is_cancel_requested in the loop: when it is True, call "
                 "goal_handle.canceled() and return the result."
             )
     return ""
@@ -60,16 +60,16 @@ def cancel_not_handled(recording: Recording) -> str:
             held = _cancel_callback(recording, goal, asked)
             if held > 0.0:
                 return (
-                    f"{goal.client} asked at {asked:.3g} s to cancel its goal, and the cancel callback of "
-                    f"{goal.server} took {held:.3g} s; meanwhile the goal went on, and ended. Return "
-                    "CancelResponse.ACCEPT at once, and do what takes time in execute, once "
+                    f"{goal.client} requested at {asked:.3g} s that its goal be canceled, but the cancel "
+                    f"callback of {goal.server} took {held:.3g} s; meanwhile the goal carried on and ended. "
+                    "Return CancelResponse.ACCEPT at once, and do anything that takes time in execute, once "
                     "goal_handle.is_cancel_requested is True."
                 )
             late = f"received it only at {noticed:.3g} s" if noticed is not None else "never received it"
             return (
-                f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} {late}: "
-                "the execute callback kept the node busy. Spin the node with a "
-                "MultiThreadedExecutor, or let execute await a pause instead of time.sleep."
+                f"{goal.client} requested at {asked:.3g} s that its goal be canceled, but {goal.server} "
+                f"{late}: the execute callback kept the node busy. Spin the node with a "
+                "MultiThreadedExecutor, or let execute await a pause instead of calling time.sleep."
             )
     return ""
 

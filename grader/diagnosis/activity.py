@@ -19,11 +19,10 @@ def slow_callback(recording: Recording) -> str:
         slowest = max(of_node, key=lambda run: run.duration, default=None)
         if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
             return (
-                f"The timer of {timer.node} fired {_times(fired)} in {recording.ended.stamp:.3g} s; "
-                f"{due} were due. "
-                f"Most likely {slowest.callback} waits (time.sleep, a long loop, a blocking service "
-                "call) instead of "
-                f"returning: it held the node for {slowest.duration:.3g} s. Let the timer do the waiting."
+                f"The timer of {timer.node} fired {_times(fired)} in {recording.ended.stamp:.3g} s; {due} "
+                f"were due. Most likely {slowest.callback} waits (time.sleep, a long loop, a blocking "
+                f"service call) instead of returning: it blocked the node for {slowest.duration:.3g} s. Let "
+                "the timer do the waiting."
             )
     return ""
 
@@ -57,9 +56,9 @@ def busy_listener(recording: Recording) -> str:
         busy = sum(run.duration for run in of_node) / (recording.ended.stamp - taken[0].stamp or 1.0)
         if busy > 0.8 and len(taken) < 0.8 * sent and _holds_up(slowest, of_node, 0.0):
             return (
-                f"{node} took {len(taken)} of {sent} messages: {slowest.callback} held it for up to "
-                f"{slowest.duration:.3g} s each time, and the next ones came meanwhile. A callback should "
-                "store the message, and return."
+                f"{node} took {len(taken)} of {sent} messages: {slowest.callback} blocked it for up to "
+                f"{slowest.duration:.3g} s each time, and more messages arrived meanwhile. A callback should "
+                "store the message and return."
             )
     return ""
 
@@ -105,8 +104,8 @@ def busy_loop(recording: Recording) -> str:
         return ""
     loop = recording.busy_loops[0]
     return (
-        f"A loop without a pause keeps a whole core of the processor busy from {loop.stamp:.3g} s on: "
-        f"{loop.place}. Let a timer do what is in it, or put time.sleep(0.01) there."
+        f"From {loop.stamp:.3g} s on, a loop without a pause keeps a whole processor core busy: "
+        f"{loop.place}. Move what it does into a timer's callback, or add time.sleep(0.01)."
     )
 
 
@@ -116,8 +115,8 @@ def ended_early(recording: Recording) -> str:
     if ended.reason != "finished" or ended.stamp >= recording.seconds - 1e-6:
         return ""
     return (
-        f"{ended.detail} The run goes on until t = {recording.seconds:.3g} s. "
-        "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown."
+        f"{ended.detail} The run lasts until t = {recording.seconds:.3g} s. A node lives as long as "
+        "something keeps it spinning: rclpy.spin(node) returns only at shutdown."
     )
 
 

@@ -38,7 +38,7 @@ def used_after_await(recording: Recording) -> str:
                 other = f"another execution of {what}" if what == callback else what
                 return (
                     f"{callback} tests self.{name}, awaits, and then uses self.{name}; during the await, at "
-                    f"{changed.stamp:.3g} s, {other} changed it. What was tested may no longer be true. "
+                    f"{changed.stamp:.3g} s, {other} changed it. The result of the test may no longer hold. "
                     f"Test self.{name} again after the await, or change it before the await."
                 )
     return ""

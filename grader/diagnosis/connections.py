@@ -21,10 +21,9 @@ def incompatible_qos(recording: Recording) -> str:
         if found is not None and not (publisher.from_course and subscription.from_course):
             policy, offered, wanted = found
             return (
-                f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
-                f"{offer(policy, offered)}, {subscription.node} requests {wanted}, so nothing arrives. "
-                "An offer has to be as good as the request, or better: "
-                f"{_fix(publisher, subscription, found)}."
+                f"On {publisher.name} the QoS settings are incompatible: {publisher.node} publishes "
+                f"{offer(policy, offered)}, {subscription.node} requests {wanted}, so nothing arrives. An "
+                f"offer has to be at least as strong as the request: {_fix(publisher, subscription, found)}."
             )
     return ""
 
@@ -50,9 +49,9 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
         lost = sum(received.early for received in messages)
         if publishers > 1 and lost > max(1, len(messages) / 2):
             return (
-                f"{node} made {publishers} publishers on {name} for {len(messages)} messages. Two programs"
-                " need a moment to discover each other, and what a new publisher sends at once is lost: make"
-                " it once, in __init__, and publish with it again and again."
+                f"{node} created {publishers} publishers on {name} for {len(messages)} messages. Two "
+                "programs need a moment to discover each other, and what a new publisher sends right away is "
+                "lost: create it once, in __init__, and use it for every message."
             )
     return ""
 
@@ -73,9 +72,9 @@ def _too_early(lost: list[UndeliveredMessage]) -> str:
         return ""
     early = lost[0]
     return (
-        f"{early.node} published on {early.topic} at {early.stamp:.3g} s, before those who listen there had "
-        "found it: two programs need a moment to discover each other, and what is sent before that is lost. "
-        "Make the publisher once, in __init__, and publish from a timer; or latch it (durability "
+        f"{early.node} published on {early.topic} at {early.stamp:.3g} s, before its subscribers had "
+        "discovered it: two programs need a moment to discover each other, and what is sent before that is "
+        "lost. Create the publisher once, in __init__, and publish from a timer; or latch it (durability "
         "transient_local at both ends)."
     )
 

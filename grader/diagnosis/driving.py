@@ -15,8 +15,8 @@ _TWIST = "geometry_msgs/msg/Twist"
 _SOME = 2  # times that something is no accident any more
 _STUCK, _TYPO = 1.5, 0.02  # s and m: no brief touch, and no box that gives way
 STOP = (
-    "This robot stops by itself when no command comes; others drive on. "
-    "Publish a Twist() with all zeros at the end."
+    "This robot stops by itself when no commands arrive; other robots drive on. Publish a Twist() with all "
+    "zeros at the end."
 )
 
 
@@ -47,7 +47,8 @@ def refused_command(recording: Recording) -> str:
                 rays = rays_without_distance(recording, bad.sender, bad.stamp)
                 return (
                     f"{bad.sender} sent {bad.words} on {topic} at {bad.stamp:.3g} s, and the robot refuses "
-                    f"what is not a finite number. {rays or 'Print what it is worked out from.'}"
+                    "anything that isn't a finite number. "
+                    f"{rays or 'Print the values it is calculated from.'}"
                 )
     return ""
 
@@ -66,8 +67,9 @@ def drives_against_it(recording: Recording) -> str:
                 rays = rays_without_distance(recording, meant[-1].sender, meant[-1].stamp, NO_WAY)
                 return (
                     f"The robot's {contact.side} touched a {contact.what} at {contact.stamp:.3g} s, and "
-                    f"{meant[-1].sender} drives on against it: {meant[-1].words} at {meant[-1].stamp:.3g} s. "
-                    f"{rays or 'Stop before, as soon as the lidar sees something near.'}"
+                    f"{meant[-1].sender} keeps driving against it: {meant[-1].words} at "
+                    f"{meant[-1].stamp:.3g} s. "
+                    f"{rays or 'Stop earlier, as soon as the lidar sees something near.'}"
                 )
     return ""
 
@@ -92,9 +94,9 @@ def two_drivers(recording: Recording) -> str:
         if len(fights) > _SOME:
             one, other = fights[0]
             return (
-                f"{one.sender} and {other.sender} both publish on {topic}, and the robot obeys the last one: "
-                f"at {one.stamp:.3g} s {one.words}, at {other.stamp:.3g} s {other.words}. "
-                "Let one node command the robot, and tell it what the other wants."
+                f"{one.sender} and {other.sender} both publish on {topic}, and the robot obeys the latest "
+                f"command: at {one.stamp:.3g} s {one.words}, at {other.stamp:.3g} s {other.words}. Let one "
+                "node command the robot, and have the other one send its requests to that node."
             )
     return ""
 
@@ -115,7 +117,7 @@ def rare_commands(recording: Recording) -> str:
         if len(pauses) >= _SOME:
             return (
                 f"{commands[0].sender} lets up to {max(pauses):.3g} s pass between two commands on {topic}, "
-                f"and the robot stops by itself {timeout:g} s after each: repeat the command at 10 Hz, from "
+                f"but the robot stops by itself {timeout:g} s after each: repeat the command at 10 Hz, from "
                 "a timer."
             )
     return ""

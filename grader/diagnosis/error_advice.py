@@ -69,7 +69,7 @@ def advice(error: CallbackError) -> str:
             return rule.advice.format(*found.groups())
     if error.type == "AttributeError":
         return _unknown_attribute(error)
-    return "Read the line it names, and think what its values are at that moment; `print` shows them."
+    return "Read the line that it names, and think about the values there at that moment; `print` shows them."
 
 
 def _unknown_name(error: CallbackError) -> str:
@@ -81,10 +81,10 @@ def _unknown_name(error: CallbackError) -> str:
         return f"`{name}` is not imported: write `{_HOMES[name]}` at the top."
     near = closest_match(name, _HOMES, 0.75)
     if near:
-        return f"Python knows no `{name}`. Did you mean `{near}`? It comes with `{_HOMES[near]}`."
+        return f"Python doesn't know `{name}`. Did you mean `{near}`? Import it with `{_HOMES[near]}`."
     return (
-        f"Python knows no `{name}` here: a typo, a missing import, or a value of the node's own, "
-        f"which is `self.{name}`."
+        f"Python doesn't know `{name}` here: it is a typo, its import is missing, or it belongs to the node, "
+        f"as `self.{name}`."
     )
 
 
@@ -101,7 +101,6 @@ def _unknown_attribute(error: CallbackError) -> str:
     if not owner[0].isupper():
         return f"A {owner} has no `{name}`: check its spelling, and what the name before the dot stands for."
     return (
-        f"{owner} has no `{name}`: check its spelling. Of a message, "
-        f"`{owner}.get_fields_and_field_types()` lists "
-        "the fields."
+        f"{owner} has no `{name}`: check its spelling. For a message, `{owner}.get_fields_and_field_types()` "
+        "lists the fields."
     )

@@ -19,22 +19,22 @@ _NOT_FROM_STUDENT = re.compile(
 _HINTS = {
     "error": "Read the last line of the error first: it says what Python did not like.",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
-    "something that "
-    "never comes. A callback should do one small step and return.",
-    "livelock": "Callbacks start each other without any time passing: two nodes that answer each "
-    "other's every "
-    "message, or a timer with period 0. Let a timer with a period set the pace.",
-    "blocked": "Everything waits for something that can't come. Inside a callback, don't wait for "
-    "another callback of "
-    "the same node (spin_until_future_complete, client.call): use call_async and add_done_callback, "
-    "or await.",
+            "something that never happens. A callback should do one small step and return.",
+    "livelock": "Callbacks trigger each other without any time passing: two nodes that answer each other's "
+                "every message, or a timer with a period of 0. Let a timer with a period set the pace.",
+    "blocked": "Everything waits for something that can't happen. Inside a callback, don't wait for another "
+               "callback of the same node (spin_until_future_complete, client.call): use call_async and "
+               "add_done_callback, or await.",
 }
 
 _MAIN_HANGS = (
     "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
 )
-_FLOOD = "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
+_FLOOD = (
+    "A loop publishes again and again without any time passing: let a timer set the pace, or pause in each "
+    "iteration."
+)
 _WAITS_OUTSIDE = (
     "Simulated time stands still during such a wait, so a run has a limit for it. Let the other program take "
     "part in the run, as in run(A, B), or start this one in a terminal."

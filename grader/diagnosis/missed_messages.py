@@ -30,8 +30,8 @@ def _sentence(recording: Recording, end: Endpoint, messages: list[Message]) -> s
     lifespan = _lifespan(recording, end)
     if lifespan:
         return (
-            f"{begin}, and it expired before {end.node} took it: the lifespan is {lifespan:g} s. Spin the "
-            "node from the start, or use a longer lifespan."
+            f"{begin}, and it expired before {end.node} received it: the lifespan is {lifespan:g} s. Spin "
+            "the node from the start, or use a longer lifespan."
         )
     return (
         f"{begin}, before {end.node} could receive it. What is sent before a subscription exists and is "

@@ -37,7 +37,7 @@ def topic_name_typo(recording: Recording) -> str:
     for name, near in _nearly_met(subscribed, published):
         if _may_be_typo(published[near], subscribed[name]):
             return (
-                f"{published[near].node} publishes on {near}, {subscribed[name].node} listens on {name}: "
+                f"{published[near].node} publishes on {near}, {subscribed[name].node} subscribes to {name}: "
                 f"two different topics. {name_difference(published[near], subscribed[name])}"
             )
     return ""

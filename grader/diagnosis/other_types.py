@@ -37,10 +37,10 @@ def other_type(error: CallbackError, recording: Recording) -> str:
     found = conflict(error, recording)
     if found is None:
         return ""
-    does = "publishes" if found.other.kind == "publisher" else "listens to"
+    does = "publishes on" if found.other.kind == "publisher" else "subscribes to"
     return (
-        f"{found.other.node} {does} {found.other.type} on {found.other.name}, and here it is {found.type}: "
-        "both ends of a topic must use the same type."
+        f"{found.other.node} {does} {found.other.name} with the type {found.other.type}, but here it is "
+        f"{found.type}: both ends of a topic must use the same type."
     )
 
 

@@ -10,7 +10,7 @@ from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
 # Many publish here, each for frames of its own.
 COMMON_TOPICS = INFRASTRUCTURE_TOPICS | {"/tf", "/tf_static"}
 KINDS = {"publisher": "publisher on", "service": "server of", "action server": "server of"}
-LEAVE_IT = "Other nodes can't tell the two apart: use a name of your own, or only listen."
+LEAVE_IT = "Other nodes can't tell the two apart: use a name of your own, or only subscribe."
 
 
 class Intrusion(NamedTuple):
@@ -52,4 +52,4 @@ def two_owners(recording: Recording) -> str:
     if not found:
         return ""
     name, owner, student, what = found[0]
-    return f"Two {what.replace(' ', 's ', 1)} {name}: {owner}, and {student} of yours. {LEAVE_IT}"
+    return f"Two {what.replace(' ', 's ', 1)} {name}: {owner}, and your {student}. {LEAVE_IT}"

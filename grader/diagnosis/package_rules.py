@@ -16,13 +16,13 @@ PACKAGE_RULES = (
     ),
     Rule(
         "ExecutableNotFound", r"",
-        "A command is a name in 'console_scripts' of setup.py: 'NAME = PACKAGE.MODULE:FUNCTION'. Look at "
-        "each letter of NAME.",
+        "A command is a name in 'console_scripts' of setup.py: 'NAME = PACKAGE.MODULE:FUNCTION'. Check each "
+        "letter of NAME.",
     ),
     Rule(
         "RCLInvalidROSArgsError", r"Couldn't parse params file",
-        "A file of settings begins with a node's name, or /**. One step further right stands "
-        "ros__parameters, with two underscores; one more, the names with their values.",
+        "A parameter file begins with a node's name, or /**. Indented below it is ros__parameters, with two "
+        "underscores; one level deeper are the names with their values.",
     ),
     Rule(
         "ModuleNotFoundError", r"^No module named '([\w.]+)\.py'",
@@ -52,8 +52,8 @@ def own_module(error: CallbackError, recording: Recording) -> str:
         )
     if error.type == "TypeError" and error.text == "'module' object is not callable" and sources:
         return (
-            "Is it an entry point without a function in setup.py? Behind a `:` stands the function that "
-            "begins the program, as in 'hello = greeter.hello:main'."
+            "Is it an entry point without a function in setup.py? After the `:` comes the function that "
+            "starts the program, as in 'hello = greeter.hello:main'."
         )
     found = re.match(r"No module named '([\w.]+)'", error.text)
     if error.type != "ModuleNotFoundError" or not found:
@@ -67,12 +67,12 @@ def own_module(error: CallbackError, recording: Recording) -> str:
         if name in (whole, package):
             return (
                 f"{path.relative_to(path.parts[0])} was not installed. In setup.py, "
-                "packages=find_packages(exclude=['test']) names each folder that has an __init__.py."
+                "packages=find_packages(exclude=['test']) finds each folder that has an __init__.py."
             )
         if name == path.stem:
             return (
-                f"A package's own modules are found by the package's name, in an import and in an entry "
-                f"point: {whole}, and not {name}."
+                "The full name of a package's module begins with the package's name, in imports and in entry "
+                f"points: write {whole}, not {name}."
             )
     return ""
 
@@ -83,7 +83,7 @@ def absent_launch_file(error: CallbackError) -> str:
         return ""
     near = re.search(r"[Dd]id you mean '?([\w.]+)'?\?$", error.text)
     if near:
-        return f"Is the name misspelt? Write {near[1]}."
+        return f"Is the name misspelled? Write {near[1]}."
     if error.text.startswith("There is no launch file"):
-        return "A path begins in the folder that is named; `ls` shows what is there."
+        return "The path is relative to the folder that is named; `ls` shows what is there."
     return ""

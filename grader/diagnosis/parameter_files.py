@@ -20,8 +20,8 @@ def yaml_boolean(error: CallbackError) -> str:
     name, value = found[1], found[2].lower()
     words, quoted = ("y, yes, on", '"y"') if value == "true" else ("n, no, off", '"n"')
     return (
-        f"The parameter `{name}` is a text, and YAML reads {words} and {value} without quotes as {value}. "
-        f"Quote it in a file of parameters: {name}: {quoted}. A launch file's parameters={{...}} loses the "
+        f"The parameter `{name}` is text, but YAML reads {words} and {value} without quotes as {value}. "
+        f"Quote it in a parameter file: {name}: {quoted}. A launch file's parameters={{...}} loses the "
         f"quotes: write ros_arguments=['-p', '{name}:={quoted}'] there."
     )
 
@@ -35,8 +35,8 @@ def mixed_list(error: CallbackError) -> str:
     key = _key_at(Path(file), int(line))
     value = "a list" if not key else f"the list `{key}`"
     return (
-        f"{file}, line {line}: {value} has a value of type {kind} after one of another type, and all values "
-        "of a list have one type. `1` and `1.0` are two types, and a text is a third."
+        f"{file}, line {line}: {value} has a value of type {kind} after one of another type, but all values "
+        "of a list must have the same type. `1` and `1.0` have different types, and text is a third."
     )
 
 

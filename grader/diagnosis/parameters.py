@@ -31,7 +31,7 @@ def unknown_parameter(recording: Recording) -> str:
             meant = f"Did you mean `{near}`?" if near else f"It declares {listed}."
             return (
                 f"{node} was started with a value for the parameter `{name}`, which it doesn't declare, and "
-                f"ROS drops that without a word. {meant}"
+                f"ROS ignores it silently. {meant}"
             )
     return ""
 
@@ -48,7 +48,7 @@ def misspelt_parameter(recording: Recording) -> str:
             if near:
                 return (
                     f"{call.client} requests the parameter `{name}` of {node}, which declares `{near}`: "
-                    "write it in the same way everywhere."
+                    "spell it the same way everywhere."
                 )
     return ""
 
@@ -60,9 +60,9 @@ def whole_parameter(recording: Recording) -> str:
             if _WHOLE.search(result.reason):
                 node = call.service.removesuffix(_SET)
                 return (
-                    f"The parameter `{one.name}` of {node} takes whole numbers only, as its default is one, "
-                    f"and ROS refuses {one.value.double_value:g}. Write the default with a decimal point: "
-                    "0.0, not 0."
+                    f"The parameter `{one.name}` of {node} takes only whole numbers, because its default is "
+                    f"one, and ROS refuses {one.value.double_value:g}. Write the default with a decimal "
+                    "point: 0.0, not 0."
                 )
     return ""
 

@@ -13,19 +13,18 @@ def lost_on_the_network(recording: Recording) -> str:
     if not lossy:
         return ""
     row = max(lossy, key=lambda row: row.lost)
-    end = "s" if row.lost > 1 else ""
     said = (
-        f"{row.lost} message{end} of {row.sent} on {row.topic} from {row.sender} to {row.listener} "
-        f"{'were' if end else 'was'} lost on the network: "
+        f"{row.lost} of {row.sent} messages on {row.topic} from {row.sender} to {row.listener} "
+        f"{'were' if row.lost > 1 else 'was'} lost on the network: "
     )
     if _is_reliable(recording, row):
         return said + (
-            "both ends are reliable, but newer ones pushed them out of the publisher's history before they "
-            "could be sent again. A larger depth keeps them longer."
+            "both ends are reliable, but newer messages pushed them out of the publisher's history before "
+            "they could be sent again. A larger depth keeps them longer."
         )
     return said + (
-        "an end with reliability best_effort sends nothing again. What must arrive needs reliable at both"
-        " ends."
+        "with reliability best_effort at one end, nothing is sent again. Messages that must arrive need "
+        "reliable at both ends."
     )
 
 
@@ -36,9 +35,9 @@ def late_on_the_network(recording: Recording) -> str:
         return ""
     row = max(late, key=lambda row: row.late)
     return (
-        f"On {row.topic} a message from {row.sender} reached {row.listener} {row.late:.1f} s late: the"
-        " network lost some, and with reliable at both ends all wait until these were sent again. Where only"
-        " the newest counts, use best_effort."
+        f"On {row.topic} a message from {row.sender} reached {row.listener} {row.late:.1f} s late: the "
+        "network lost some, and with reliable at both ends all others wait until these have been sent again. "
+        "Where only the newest message counts, use best_effort."
     )
 
 

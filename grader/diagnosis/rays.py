@@ -29,7 +29,7 @@ def rays_without_distance(
         return ""
     rays = scans[-1].message.ranges
     found = [
-        f"ray {number} says {word} ({meaning})"
+        f"ray {number} is {word} ({meaning})"
         for word, (is_it, meaning) in ((kind, _KINDS[kind]) for kind in kinds)
         if (number := next((n for n, ray in enumerate(rays) if is_it(ray)), None)) is not None
     ]

@@ -27,10 +27,11 @@ def invalid_transition(error: CallbackError, recording: Recording) -> str:
     number, state = found[-1]
     name = _TRANSITIONS.get(int(number), f"with the number {number}")
     return (
-        f"{error.node} is {state}, and a lifecycle node has no transition {name} in this state: possible is "
-        f"{_POSSIBLE.get(state, 'nothing')}. Read the state first (`ros2 lifecycle get {error.node}`, or the "
-        "service get_state), and go through the states in order: configure, activate, deactivate, cleanup. "
-        "rclpy does not refuse a wrong request, it raises, and the node dies."
+        f"{error.node} is {state}, and a lifecycle node has no transition {name} in this state "
+        f"(possible: {_POSSIBLE.get(state, 'nothing')}). Read the state first (`ros2 lifecycle get "
+        f"{error.node}`, or the service get_state), and go through the states in order: configure, activate, "
+        "deactivate, cleanup. rclpy does not refuse a wrong request: it raises an exception, and the node "
+        "dies."
     )
 
 
@@ -55,7 +56,7 @@ def empty_list(error: CallbackError) -> str:
 def empty_list_advice(name: str, given: str) -> str:
     """What to do about a parameter with the default `[]` that was given a list of another type."""
     return (
-        f"The parameter `{name}` got a list of type {given}, and was declared with an empty list, which "
+        f"The parameter `{name}` got a list of type {given}, but was declared with an empty list, which "
         "rclpy takes for a BYTE_ARRAY: `[]` doesn't show what is in the list. Declare the type: "
         f"`self.declare_parameter('{name}', Parameter.Type.{given})`, with `from rclpy.parameter import "
         "Parameter`; the parameter then has no value until it is set."

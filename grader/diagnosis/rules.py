@@ -42,8 +42,8 @@ RULES = (
     ),
     Rule(
         "AssertionError", r"The '(\w+)' field must be a sub message of type '(\w+)'",
-        "`{0}` is a message of its own, a {1}: set the fields inside it (`msg.{0}.x = 1.0`), or give "
-        "it a whole {1}().",
+        "`{0}` is a message of its own, a {1}: set the fields inside it (`msg.{0}.x = 1.0`), or assign a "
+        "whole {1}().",
     ),
     Rule(
         "AssertionError", r"The '(\w+)' field must be (an? .+)",
@@ -59,13 +59,13 @@ RULES = (
     ),
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '(str|int|float|bool)'>",
-        "This publisher sends {0} messages, and got a plain {1}: put it into a message first, "
-        "`msg = {0}()`, then `msg.data = ...`, then `publish(msg)`.",
+        "This publisher sends {0} messages, but got a plain {1}: put it into a message first, `msg = {0}()`, "
+        "then `msg.data = ...`, then `publish(msg)`.",
     ),
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '[\w.]*?(\w+)'>",
-        "This publisher was created for {0} and got a {1}: use the same type in create_publisher() "
-        "and publish().",
+        "This publisher was created for {0}, but got a {1}: use the same type in create_publisher() and "
+        "publish().",
     ),
     Rule(
         "TypeError", r"__init__\(\) missing 1 required positional argument: 'node_name'",
@@ -83,8 +83,8 @@ RULES = (
     ),
     Rule(
         "AttributeError", r"type object 'type' has no attribute '_TYPE_SUPPORT'",
-        "A topic carries messages, and the type of one is wanted there, not a type of Python's: String for "
-        "str, Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import String`.",
+        "A topic carries messages, so it needs the type of a message, not one of Python's: String for str, "
+        "Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import String`.",
     ),
     Rule(
         "TypeError", r"Expected QoSProfile or int",
@@ -93,7 +93,7 @@ RULES = (
     ),
     Rule(
         "TypeError", r"rclpy_logging_rcutils_log\(\): incompatible|RcutilsLogger\.\w+\(\) (?:takes|missing)",
-        "A log line is one text: put values into it with an f-string, `info(f'count: {{count}}')`.",
+        "A log line is one string: insert values with an f-string, `info(f'count: {{count}}')`.",
     ),
     Rule(
         "TypeError", r"float\(\) argument must be a string or a real number, not "
@@ -102,7 +102,7 @@ RULES = (
     ),
     Rule(
         "TypeError", r"'NoneType' object is not callable",
-        "A callback is handed over without parentheses: `self.callback`, not `self.callback()`.",
+        "Pass a callback without parentheses: `self.callback`, not `self.callback()`.",
     ),
     Rule(
         "TypeError", r"(\w+)\.__init__\(\) takes 1 positional argument but \d+ were given",
@@ -120,9 +120,8 @@ RULES = (
     ),
     Rule(
         "TypeError", r"(\w+)\(\) missing \d+ required positional arguments?: (.+)",
-        "`{0}` is called without {1}. A timer's callback takes nothing but self, a subscription's "
-        "takes self and the "
-        "message; what else it needs comes from `self`, a lambda or functools.partial.",
+        "`{0}` is called without {1}. A timer's callback takes nothing but self, a subscription's takes self "
+        "and the message; anything else it needs comes from `self`, a lambda or functools.partial.",
     ),
     Rule(
         "TypeError", r"unsupported format string passed to NoneType",
@@ -130,22 +129,21 @@ RULES = (
     ),
     Rule(
         "ValueError", r"Logger severity cannot be changed between calls",
-        "Each place in the code logs at one level only: with if and else, write a line of its own for each "
+        "Each log call in the code has one level only: with if and else, write a separate call for each "
         "level.",
     ),
     Rule(
         "ValueError", r"'(\w+)' is not a valid LoggingSeverity",
-        "A level is not a text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` "
+        "A level is not a string: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` "
         "and so on.",
     ),
     Rule(
         "IndexError", r"(\w+) index out of range",
-        "The {0} has no item of that number: the first is number 0, the last is len(...) - 1.",
+        "The {0} has no item with that number: the first is number 0, the last is len(...) - 1.",
     ),
     Rule(
         "RuntimeError", r"callback should be either be callable with one argument",
-        "A subscription's callback takes the message: `def callback(self, msg):`, handed over as "
-        "`self.callback`.",
+        "A subscription's callback takes the message: `def callback(self, msg):`, passed as `self.callback`.",
     ),
     Rule(
         "RuntimeError", r"Context\.init\(\) must only be called once",
@@ -196,7 +194,7 @@ RULES = (
     ),
     Rule(
         "ModuleNotFoundError", r"No module named '([\w.]+)'",
-        "Python finds no module `{0}`: check its spelling. Message packages end in `_msgs` and `.msg`, "
+        "Python can't find a module `{0}`: check its spelling. Message packages end in `_msgs` and `.msg`, "
         "as in `from std_msgs.msg import String`.",
     ),
     Rule(
@@ -210,7 +208,7 @@ RULES = (
     ),
     Rule(
         "AttributeError", r"'(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'",
-        "Brackets are missing before `.{0}`: a method is called with them, as in "
+        "Parentheses are missing before `.{0}`: a method is called with them, as in "
         "`self.get_logger().info(...)`.",
     ),
     Rule(
@@ -219,6 +217,6 @@ RULES = (
     ),
     Rule(
         "AttributeError", r"'NoneType' object has no attribute '(\w+)'",
-        "What stands before `.{0}` is None: it was never set, or comes from a function without `return`.",
+        "The value before `.{0}` is None: it was never set, or comes from a function without `return`.",
     ),
 )  # fmt: skip

@@ -12,7 +12,7 @@ _GOT = r"got <class '(?:[\w.]*\.)?(\w+)'>"
 SERVICE_RULES = (
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)_Response'>, got <class 'NoneType'>",
-        "The service's callback has to give its answer back: end it with `return response`.",
+        "The service's callback has to return its response: end it with `return response`.",
     ),
     Rule(
         "TypeError", rf"Expected <class '[\w.]*?(\w+)_Response'>, {_GOT}",
@@ -21,7 +21,7 @@ SERVICE_RULES = (
     ),
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)_Request'>, got <class '[\w.]*Metaclass_\1_Request'>",
-        "A call takes a request, not its class: `request = {0}.Request()`, with brackets.",
+        "A call takes a request, not its class: `request = {0}.Request()`, with parentheses.",
     ),
     Rule(
         "TypeError", rf"Expected <class '[\w.]*?(\w+)_Request'>, {_GOT}",
@@ -30,7 +30,7 @@ SERVICE_RULES = (
     ),
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)_Goal'>, got <class '[\w.]*?(\w+)_Goal'>",
-        "This client is for {0}, and got a goal of {1}: each action has a client of its own.",
+        "This client is for {0}, but got a goal of {1}: each action needs a client of its own.",
     ),
     Rule(
         "TypeError", rf"Expected <class '[\w.]*?(\w+)_Goal'>, {_GOT}",
@@ -44,7 +44,7 @@ SERVICE_RULES = (
     ),
     Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '[\w.]*?(\w+)_(Response|Result)'>",
-        "This publisher sends {0} messages, and got a whole {1}.{2}: take the field that you need out of it, "
+        "This publisher sends {0} messages, but got a whole {1}.{2}: take the field that you need out of it, "
         "and put that into a message, as in `{0}(data=...)`.",
     ),
     Rule(
@@ -59,22 +59,21 @@ SERVICE_RULES = (
     ),
     Rule(
         "NotImplementedError", r"(?:Service|Action) classes can not be instantiated",
-        "A type of a service or an action is handed over as it is, without brackets: `SetBool`, not "
-        "`SetBool()`.",
+        "Pass the type of a service or an action as it is, without parentheses: `SetBool`, not `SetBool()`.",
     ),
     Rule(
         "AssertionError", r"The 'result' field must be a sub message of type '(\w+)_Result'",
-        "An execute callback has to give the result back: end it with `return {0}.Result(...)`.",
+        "An execute callback has to return the result: end it with `return {0}.Result(...)`.",
     ),
     Rule(
         "TypeError", r"^(?!RcutilsLogger)[\w.]*?(\w+)\(\) takes 2 positional arguments but 3 were given",
-        "`{0}` is called with two things, as a service's callback is: "
-        "write `def {0}(self, request, response):`.",
+        "`{0}` is called with two arguments, as a service's callback is: write `def {0}(self, request, "
+        "response):`.",
     ),
     Rule(
         "TypeError", r"(\w+)\(\) missing \d required positional arguments?: '(?:request|goal_handle|future)'",
-        "`{0}` is called without what it needs. As a callback it is handed over without brackets, "
-        "`self.{0}`: ROS calls it, and fills in the rest.",
+        "`{0}` is called without its arguments. Pass a callback without parentheses, `self.{0}`: ROS calls "
+        "it, and fills in the arguments.",
     ),
     Rule(
         "AttributeError", r"type object 'str' has no attribute '_TYPE_SUPPORT'",
@@ -83,11 +82,11 @@ SERVICE_RULES = (
     ),
     Rule(
         "TypeError", r"'(bool|int|float|str)' object is not callable",
-        "What stands before the brackets is a value of type {0}, not a method: leave the brackets out.",
+        "The value before the parentheses is of type {0}, not a method: leave the parentheses out.",
     ),
     Rule(
         "TypeError", r"not supported between instances of '(?:\w+\.)?(deque|list|tuple)' and '(?:int|float)'",
-        "A {0} is not a number: len(...) says how many things are in it.",
+        "A {0} is not a number: len(...) counts the items in it.",
     ),
     Rule(
         "TypeError", r"create_service\(\) missing",
@@ -104,11 +103,11 @@ SERVICE_RULES = (
     ),
     Rule(
         "AttributeError", r"'(\w+)_Goal' object has no attribute 'request'",
-        "The goal callback gets the goal itself, and no goal handle: leave out `.request`.",
+        "The goal callback receives the goal itself, not a goal handle: leave out `.request`.",
     ),
     Rule(
         "AttributeError", r"'ServerGoalHandle' object has no attribute '(\w+)'",
-        "What the client asks for is in the request of the goal handle: `goal_handle.request.{0}`.",
+        "The client's request is in the goal handle: `goal_handle.request.{0}`.",
     ),
     Rule(
         "AttributeError", r"'\w+_FeedbackMessage' object has no attribute '(\w+)'",
@@ -116,33 +115,34 @@ SERVICE_RULES = (
     ),
     Rule(
         "AttributeError", r"'\w+_GetResult_Response' object has no attribute '(\w+)'",
-        "What comes in the end has two parts, a status and the result: `future.result().result.{0}`.",
+        "The final response has two parts, a status and the result: `future.result().result.{0}`.",
     ),
     Rule(
         "AttributeError", r"'\w+_Result' object has no attribute 'status'",
-        "The status is beside the result, not in it: `future.result().status`.",
+        "The status is next to the result, not in it: `future.result().status`.",
     ),
     Rule(
         "AttributeError", r"'ClientGoalHandle' object has no attribute '(?:reject|accept)\w*'",
-        "Whether the goal is accepted is in `accepted`, True or False: `if not goal_handle.accepted:`.",
+        "The field `accepted` says whether the goal was accepted, True or False: `if not "
+        "goal_handle.accepted:`.",
     ),
     Rule(
         "AttributeError", r"'ActionClient' object has no attribute '(cancel_goal_async|get_result_async)'",
-        "A client sends goals; what happens to one of them goes over its goal handle, which the first answer "
-        "brings: `self.goal_handle.{0}()`.",
+        "A client sends goals; everything about one goal goes through its goal handle, which the first "
+        "response contains: `self.goal_handle.{0}()`.",
     ),
     Rule(
         "AttributeError", r"type object '(\w+)' has no attribute '_time_source'",
-        "A node is wanted there, not its class: `node = {0}()`, with brackets, makes one.",
+        "A node is needed there, not its class: `node = {0}()`, with parentheses, creates one.",
     ),
     Rule(
         "AttributeError", r"object attribute '(\w+)' is read-only",
-        "`{0}` was set in the class of this message before, for brackets were missing, as in "
-        "`result = Spin.Result()`. Put them there, and restart the kernel: until then the class stays so.",
+        "`{0}` was set in the class of this message before, because the parentheses of `result = "
+        "Spin.Result()` were missing. Add them, and restart the kernel: until then the class stays changed.",
     ),
     Rule(
         "AttributeError", r"'ClientGoalHandle' object has no attribute '\w+'",
-        "The first answer only says whether the goal is accepted. The result comes later: "
+        "The first response only says whether the goal was accepted. The result comes later: "
         "`goal_handle.get_result_async().add_done_callback(self.on_result)`.",
     ),
     Rule(

@@ -23,8 +23,8 @@ def not_offered(recording: Recording) -> str:
             waits = (end.node, end.name) in asked or end.node not in active | _gave_up(recording)
             if end.name not in offered and waits:
                 return (
-                    f"{end.node} has a client for the {what} {end.name}, but no node offers it. "
-                    "Does the server run, and is the name right?"
+                    f"{end.node} has a client for the {what} {end.name}, but no node offers it. Is the "
+                    "server running, and is the name right?"
                 )
     for call in recording.calls:
         node, _, service = call.service.rpartition("/")

@@ -47,7 +47,7 @@ def _refusal(error: CallbackError, recording: Recording) -> str:
         return ""
     if error.callback == _SETS_PARAMETERS:
         return (
-            "An exception doesn't refuse anything, it ends the node. To refuse a value, "
+            "An exception doesn't refuse anything; it ends the node. To refuse a value, "
             'return SetParametersResult(successful=False, reason="...").'
         )
     call = next((c for c in recording.calls if c.server == error.node and c.raised == error.type), None)
@@ -56,8 +56,8 @@ def _refusal(error: CallbackError, recording: Recording) -> str:
     no = "response.success = False, response.message = the reason, return response"
     how = no if call.type.endswith(("/Trigger", "/SetBool")) else "set its fields, and return the response"
     return (
-        "An exception doesn't refuse anything: it ends the node, and the client waits for an answer that "
-        f"never comes. Say no in the answer: {how}."
+        "An exception doesn't refuse anything: it ends the node, and the client waits for a response that "
+        f"never arrives. Refuse in the response: {how}."
     )
 
 
@@ -73,9 +73,9 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
     for client, asked, received, what in sent:
         if client == error.node and received is None and asked is not None and asked >= begin:
             return (
-                f"The answer isn't there yet: {what} returns at once, with a future that is still empty. "
-                "`future.add_done_callback(self.on_response)`, without brackets after the method, lets ROS "
-                "call it once the answer has come; there future.result() is the answer."
+                f"The response isn't there yet: {what} returns at once, with a future that is still empty. "
+                "`future.add_done_callback(self.on_response)`, without parentheses after the method, lets "
+                "ROS call it once the response has arrived; there, future.result() is the response."
             )
     return ""
 
@@ -90,8 +90,8 @@ def _nothing_received(error: CallbackError, recording: Recording) -> str:
         waits = end.node == error.node and end.name not in come
         if waits and found[1] in message_class(end.type).get_fields_and_field_types():
             return (
-                f"No message has come on {end.name} by then, so what keeps the last one is still None. Ask "
-                "for that first, with `is None`; before the first message, send zeros to a robot."
+                f"No message has arrived on {end.name} by then, so the variable for the latest one is still "
+                "None. Test for that first, with `is None`; before the first message, send zeros to a robot."
             )
     return ""
 
@@ -113,12 +113,13 @@ def _no_value(error: CallbackError) -> str:
     empty = re.search(r"get_parameter\(['\"]([^)]*)['\"]\)\.value", line)
     if empty and "NoneType" in error.text:
         return (
-            f"The parameter `{empty[1]}` has no value: it was declared without one, and the start gave none. "
-            f"Declare it with a default, declare_parameter('{empty[1]}', 1.0)."
+            f"The parameter `{empty[1]}` has no value: it was declared without one, and none was given at "
+            f"the start. Declare it with a default, declare_parameter('{empty[1]}', 1.0)."
         )
     if error.type in ("AssertionError", "KeyError") and re.search(r"get_parameter\([^)]*\)(?!\.)", line):
         return (
-            "get_parameter() gives a parameter, which holds a value: write self.get_parameter('name').value."
+            "get_parameter() returns a parameter, which contains a value: write "
+            "self.get_parameter('name').value."
         )
     return ""
 
@@ -130,8 +131,8 @@ def _called_with_too_little(error: CallbackError) -> str:
     if found is None or f"self.{found[1]}(" not in _last_line(error):
         return ""
     return (
-        f"`{found[1]}` is called there without all that it needs. A callback is handed over without "
-        f"brackets, `self.{found[1]}`. And a star unpacks a pair: `self.{found[1]}(*pair)`."
+        f"`{found[1]}` is called there without all of its arguments. Pass a callback without parentheses, "
+        f"`self.{found[1]}`. And a star unpacks a pair: `self.{found[1]}(*pair)`."
     )
 
 
@@ -143,8 +144,8 @@ def _gives_something_else(error: CallbackError) -> str:
         return ""
     number = "a number with a decimal point, such as 1.0" if field[2] == "float" else "a whole number"
     return (
-        f"`{field[1]}` takes {number}, and gets what `{called[1]}` gives back: does every way through it end "
-        "with `return` and one such number? `print` shows what comes."
+        f"`{field[1]}` takes {number}, but gets what `{called[1]}` returns: does every path through it end "
+        "with `return` and one such number? `print` shows what it returns."
     )
 
 
@@ -154,8 +155,8 @@ def _empty_slice(error: CallbackError) -> str:
     if part is None or not re.search(r"(?:min|max)\(\) .*empty", error.text):
         return ""
     return (
-        f"`[{part[1]}:{part[2]}]` is empty: a slice doesn't go on from the end of a list to its beginning. "
-        f"Join two parts: `[*msg.ranges[{part[1]}:], *msg.ranges[:{part[2]}]]`."
+        f"`[{part[1]}:{part[2]}]` is empty: a slice doesn't wrap around from the end of a list to its "
+        f"beginning. Join two parts: `[*msg.ranges[{part[1]}:], *msg.ranges[:{part[2]}]]`."
     )
 
 

@@ -40,8 +40,8 @@ def _lost_update(owner: str, method: str, other: str, name: str, why: str) -> st
     both = "itself" if method == other else f"{owner}.{other}"
     return (
         f"{owner}.{method} reads self.{name} and writes it back, and may run at the same time as {both}, "
-        f"which changes it, too: {why}. A change that the other makes in between is lost. Change "
-        f"self.{name} only inside `with self.lock:`, with one threading.Lock() for the node."
+        f"which also changes it: {why}. A change that the other makes in between is lost. Change self.{name} "
+        "only inside `with self.lock:`, with one threading.Lock() for the node."
     )
 
 

@@ -12,7 +12,7 @@ def two_executors(recording: Recording) -> str:
         return ""
     return (
         f"At {row.stamp:.3g} s a second executor took over {row.node}, and the first one, which also spins, "
-        "runs none of its callbacks any more: a node belongs to one executor. Spin it with one. "
+        "no longer runs any of its callbacks: a node belongs to one executor. Spin it with one. "
         "`rclpy.spin_once(node)` and `rclpy.spin_until_future_complete(node, future)` use an executor of "
         "their own unless you pass `executor=node.executor`."
     )

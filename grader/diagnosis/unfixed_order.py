@@ -40,8 +40,9 @@ def _set_by_another(node: StudentNode, setter: str, user: str, name: str) -> str
     if not _initial(node, name):
         advice = f"Set self.{name} = None in __init__, and begin {user} with {test}"
     return (
-        f"{user} uses self.{name}, which only {setter} sets and which {missing}. Nothing fixes which of the "
-        f"two runs first; in this run {setter} did, at {first:.3g} s, and {user} at {then:.3g} s. {advice}."
+        f"{user} uses self.{name}, which only {setter} sets and which {missing}. Nothing determines which of "
+        f"the two runs first; in this run {setter} did, at {first:.3g} s, and {user} at {then:.3g} s. "
+        f"{advice}."
     )
 
 
@@ -140,9 +141,9 @@ def equal_timers(recording: Recording) -> str:
                 period = _common_period(recording, node, setter, user) if name else 0.0
                 if period:
                     return (
-                        f"{setter} sets self.{name}, and {user} uses it. Both are timers of {node.name} "
-                        f"with a period of {period:g} s. Today's rclpy runs the one first that was created "
-                        f"first, and nothing guarantees it: {user} gets the value of this period or of the "
+                        f"{setter} sets self.{name}, and {user} uses it. Both are timers of {node.name} with "
+                        f"a period of {period:g} s. The current rclpy first runs the one that was created "
+                        f"first, but nothing guarantees that: {user} gets the value of this period or of the "
                         "one before. Do both in one callback, in the order that they need."
                     )
     return ""

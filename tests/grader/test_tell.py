@@ -39,14 +39,14 @@ def test_a_run_that_hangs(capsys):
     assert capsys.readouterr().out == (
         "Talker.tick never returned.\n"
         "Hint: Look there for a loop that never ends (`while True:` without a way out), or a wait for\n"
-        "something that never comes. A callback should do one small step and return.\n"
+        "something that never happens. A callback should do one small step and return.\n"
     )
 
 
 def test_a_run_without_an_error_in_which_something_is_wrong(capsys):
     tell(run(misfits.BestEffortTalker, misfits.Listener, seconds=3, quiet=True))
     assert capsys.readouterr().out == (
-        "On /chatter the QoS doesn't fit: /talker publishes with reliability best_effort, /listener requests\n"
-        "reliable, so nothing arrives. An offer has to be as good as the request, or better: offer reliable,\n"
-        "or request best_effort.\n"
+        "On /chatter the QoS settings are incompatible: /talker publishes with reliability best_effort,\n"
+        "/listener requests reliable, so nothing arrives. An offer has to be at least as strong as the\n"
+        "request: offer reliable, or request best_effort.\n"
     )

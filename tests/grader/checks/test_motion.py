@@ -179,7 +179,7 @@ def test_a_robot_that_is_stopped_was_commanded_to():
     assert caught.value.credit == 0.5
     assert miss.saw == "the last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s"
     assert miss.hint == (
-        "This robot stops by itself when no command comes; others drive on. Publish a Twist() with all zeros at the "
+        "This robot stops by itself when no commands arrive; other robots drive on. Publish a Twist() with all zeros at the "
         "end."
     )
 

@@ -88,8 +88,7 @@ def test_where_two_own_a_topic_or_serve_a_service_is_known(staged):
 
 def test_the_first_look_tells_of_two_owners(staged):
     assert two_owners(staged) == (
-        "Two publishers on /odom: /robot, and /robot of yours. Other nodes can't tell the two apart: use a "
-        "name of your own, or only listen."
+        "Two publishers on /odom: /robot, and your /robot. Other nodes can't tell the two apart: use a name of your own, or only subscribe."
     )
 
 
@@ -121,7 +120,7 @@ def test_who_publishes_on_a_topic_of_the_course_is_reported_and_judged_no_furthe
         "The node leaves topics and services of other programs alone.",
         "one publisher on /odom: /robot",
         "two, /robot and /robot of yours",
-        "Other nodes can't tell the two apart: use a name of your own, or only listen.",
+        "Other nodes can't tell the two apart: use a name of your own, or only subscribe.",
     )
     assert right.hint == "Not graded: it isn't clear which program sent what, see above."
 

@@ -64,7 +64,7 @@ def test_a_rate_misses_messages_that_no_one_can_receive():
     assert len(publishes(recorded, "/chatter")) == 5
     miss = missed(rate, recorded, "/chatter", 1.0)
     assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that are never received")
-    assert miss.hint.startswith("/talker made 5 publishers on /chatter for 5 messages. Two programs need")
+    assert miss.hint.startswith("/talker created 5 publishers on /chatter for 5 messages. Two programs need")
     assert miss.picture == "topics"
 
 

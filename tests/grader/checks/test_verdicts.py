@@ -265,7 +265,7 @@ def test_of_topics_with_two_owners_the_first_is_named_and_carries_no_points():
         0.0,
         "one publisher on /odom: /robot",
         "two, /robot and /faker of yours",
-        "Other nodes can't tell the two apart: use a name of your own, or only listen.",
+        "Other nodes can't tell the two apart: use a name of your own, or only subscribe.",
     )
     assert (first.status, first.earned) == ("passed", 1.0)
     hint = "Not graded: it isn't clear which program sent what, see above."

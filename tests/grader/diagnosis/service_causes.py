@@ -9,19 +9,18 @@ SPIN = (
     "rclpy.spin_until_future_complete(node, future)."
 )
 FIRST = "two programs need a moment to discover each other, and what is sent before that is lost. Wait first:"
-IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
+IN_VAIN = ", but no node offers it. Is the server running, and is the name right?"
 NEVER_RAN = (
     "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
 )
 THREADS = (
-    "the execute callback kept the node busy. Spin the node with a MultiThreadedExecutor, or let execute await a "
-    "pause instead of time.sleep."
+    "the execute callback kept the node busy. Spin the node with a MultiThreadedExecutor, or let execute await a pause instead of calling time.sleep."
 )
 LOOK = (
-    "Look at goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
+    "Check goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
     "the result."
 )
-DROPPED = "was started with a value for the parameter {}, which it doesn't declare, and ROS drops that without a word."
+DROPPED = "was started with a value for the parameter {}, which it doesn't declare, and ROS ignores it silently."
 
 SERVICE_CAUSES = {
     (misfits.launch_with_a_typo,): f"/wheel {DROPPED.format('`radios`')} Did you mean `radius`?",
@@ -85,32 +84,28 @@ SERVICE_CAUSES = {
     (
         goals.JudgesWithTrue,
         actions.Client,
-    ): "A goal callback returned something else than a GoalResponse, and so the "
-    "goal was rejected: return GoalResponse.ACCEPT or GoalResponse.REJECT.",
+    ): "A goal callback returned something other than a GoalResponse, so the goal was rejected: return GoalResponse.ACCEPT or GoalResponse.REJECT.",
     (
         actions.Forgetful,
         actions.Client,
-    ): "The execute callback of /fibonacci returned without saying how the goal "
-    "ended, which counts as aborted: call goal_handle.succeed() before you return the result.",
+    ): "The execute callback of /fibonacci returned without setting the goal's final state, which counts as aborted: call goal_handle.succeed() before you return the result.",
     (
         actions.Server,
         actions.Impatient,
-    ): "/client asked at 1.5 s to cancel its goal, and /server received it only at 3 s: " + THREADS,
+    ): "/client requested at 1.5 s that its goal be canceled, but /server received it only at 3 s: " + THREADS,
     (
         goals.Busy,
         actions.Impatient,
-    ): f"/client asked at 1.5 s to cancel its goal, and /server never received it: {THREADS}",
-    (goals.parallel(goals.IgnoresCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
-    f"/fibonacci, and went on until it succeeded at 3 s. {LOOK}",
+    ): f"/client requested at 1.5 s that its goal be canceled, but /server never received it: {THREADS}",
+    (goals.parallel(goals.IgnoresCancel), actions.Impatient): f"/server agreed at 1.5 s to cancel the goal of /fibonacci, but carried on until it succeeded at 3 s. {LOOK}",
     (
         goals.parallel(goals.AbortsOnCancel),
         actions.Impatient,
-    ): "/server agreed at 1.5 s to cancel the goal of "
-    f"/fibonacci, and went on until it was aborted at 2 s. {LOOK}",
+    ): f"/server agreed at 1.5 s to cancel the goal of /fibonacci, but carried on until it was aborted at 2 s. {LOOK}",
     (
         goals.parallel(goals.Busy),
         actions.Impatient,
-    ): f"/server agreed at 1.5 s to cancel the goal of /fibonacci, and went on all the same. {LOOK}",
+    ): f"/server agreed at 1.5 s to cancel the goal of /fibonacci, but carried on anyway. {LOOK}",
     (
         goals.parallel(goals.AlwaysRejectsCancel),
         actions.Impatient,

@@ -13,7 +13,7 @@ from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
 from tests.students.services import parameters
 
-TYPO = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
+TYPO = "/talker publishes on {}, /listener subscribes to /chatter: two different topics. "
 CAUSES = {
     (misfits.MisspeltTopic, misfits.Listener): TYPO.format("/chater")
     + "Is /chater a typo? Did you mean /chatter?",
@@ -22,43 +22,39 @@ CAUSES = {
     (misfits.TopicInNamespace, misfits.Listener): TYPO.format("/robot1/chatter")
     + "Only the namespace differs: write /chatter. A name that starts with a slash is taken as it is; without the "
     "slash the node's namespace is put before it.",
-    (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS doesn't fit: /talker publishes with "
-    "reliability best_effort, /listener requests reliable, so nothing arrives. An offer has to be as good as the "
-    "request, or better: offer reliable, or request best_effort.",
+    (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS settings are incompatible: /talker publishes with "
+    "reliability best_effort, /listener requests reliable, so nothing arrives. An offer has to be at least as strong as the request: offer reliable, or request best_effort.",
     (
         misfits.Talker,
         misfits.LatchedListener,
-    ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
-    "volatile, /listener requests transient_local, so nothing arrives. An offer has to be as good as the request, or "
-    "better: offer transient_local, or request volatile.",
+    ): "On /chatter the QoS settings are incompatible: /talker publishes with durability "
+    "volatile, /listener requests transient_local, so nothing arrives. An offer has to be at least as strong as the request: offer transient_local, or request volatile.",
     (
         misfits.Talker,
         misfits.ImpatientListener,
-    ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener requests 0.5 s, so nothing "
-    "arrives. An offer has to be as good as the request, or better: offer deadline 0.5 s or less, or request no "
+    ): "On /chatter the QoS settings are incompatible: /talker publishes without a deadline, /listener requests 0.5 s, so nothing "
+    "arrives. An offer has to be at least as strong as the request: offer deadline 0.5 s or less, or request no "
     "deadline.",
     (
         misfits.Talker,
         misfits.ListenerForTheLiving,
-    ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener requests "
-    "manual_by_topic, so nothing arrives. An offer has to be as good as the request, or better: offer "
+    ): "On /chatter the QoS settings are incompatible: /talker publishes with liveliness automatic, /listener requests "
+    "manual_by_topic, so nothing arrives. An offer has to be at least as strong as the request: offer "
     "manual_by_topic, or request automatic.",
     (
         misfits.SleepyTalker,
     ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "
-    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
+    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it blocked the node for 3 s. "
     "Let the timer do the waiting.",
     (
         misfits.Listener,
         misfits.TalksInItsConstructor,
-    ): "/talker published on /chatter at 0 s, before those who listen there had found it: two programs need a moment "
-    "to discover each other, and what is sent before that is lost. Make the publisher once, in __init__, and publish "
-    "from a timer; or latch it (durability transient_local at both ends).",
+    ): "/talker published on /chatter at 0 s, before its subscribers had discovered it: two programs need a moment "
+    "to discover each other, and what is sent before that is lost. Create the publisher once, in __init__, and publish from a timer; or latch it (durability transient_local at both ends).",
     (
         misfits.NewPublisherEachTime,
-    ): "/talker made 10 publishers on /chatter for 10 messages. Two programs need a moment to discover each "
-    "other, and what a new publisher sends at once is lost: make it once, in __init__, and publish with it again "
-    "and again.",
+    ): "/talker created 10 publishers on /chatter for 10 messages. Two programs need a moment to discover each "
+    "other, and what a new publisher sends right away is lost: create it once, in __init__, and use it for every message.",
     (
         misfits.SilentTalker,
     ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
@@ -96,12 +92,12 @@ CAUSES = {
     "Callbacks run while the node spins: call rclpy.spin(node) in main().",
     (
         misfits.main_that_spins_three_seconds,
-    ): "Every program had ended by t = 4 s. The run goes on until t = 10 s. "
+    ): "Every program had ended by t = 4 s. The run lasts until t = 10 s. "
     "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown.",
     (
         misfits.SleepyOnce,
     ): "The timer of /talker fired once in 10 s; 10 were due. Most likely SleepyOnce.tick waits "
-    "(time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 8.5 s. "
+    "(time.sleep, a long loop, a blocking service call) instead of returning: it blocked the node for 8.5 s. "
     "Let the timer do the waiting.",
     **SERVICE_CAUSES,
 }
@@ -167,10 +163,8 @@ def test_a_name_that_one_of_the_course_has_is_reported():
 
 
 TUNED = {
-    parameters.ParameterMisspelt: "/tuner requests the parameter `speed` of /cruiser, which declares `Speed`: "
-    "write it in the same way everywhere.",
-    parameters.WholeNumberMadeReal: "The parameter `speed` of /cruiser takes whole numbers only, as its "
-    "default is one, and ROS refuses 0.41. Write the default with a decimal point: 0.0, not 0.",
+    parameters.ParameterMisspelt: "/tuner requests the parameter `speed` of /cruiser, which declares `Speed`: spell it the same way everywhere.",
+    parameters.WholeNumberMadeReal: "The parameter `speed` of /cruiser takes only whole numbers, because its default is one, and ROS refuses 0.41. Write the default with a decimal point: 0.0, not 0.",
     parameters.Cruiser: "",
     parameters.NoCallback: "",
 }

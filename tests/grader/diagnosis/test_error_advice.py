@@ -17,18 +17,17 @@ ADVICE = {
     mistakes.NumberForText: "`data` takes text: set `msg.data = 'text'`; `str(value)` converts.",
     mistakes.NumberForBool: "`data` takes True or False, not 1 or 0; `bool(value)` converts.",
     mistakes.NumberForSubMessage: "`linear` is a message of its own, a Vector3: set the fields inside it "
-    "(`msg.linear.x = 1.0`), or give it a whole Vector3().",
+    "(`msg.linear.x = 1.0`), or assign a whole Vector3().",
     mistakes.NumberTooLarge: "`data` must be an integer in [-2147483648, 2147483647]: give it a value of that kind.",
     mistakes.UnknownFieldInConstructor: "This message has no field `text`. `get_fields_and_field_types()` of its "
     "class lists the fields.",
     mistakes.FieldByPosition: "The fields of a message are set by name: `String(data=...)`, or `msg = String()` and "
     "then `msg.data = ...`.",
-    mistakes.UnknownField: "Twist has no `speed`: check its spelling. Of a message, "
-    "`Twist.get_fields_and_field_types()` lists the fields.",
+    mistakes.UnknownField: "Twist has no `speed`: check its spelling. For a message, `Twist.get_fields_and_field_types()` lists the fields.",
     mistakes.PublishesTheClass: "publish() takes a message, not its class: make one first with `msg = String()`.",
-    mistakes.PublishesPlainText: "This publisher sends String messages, and got a plain str: put it into a message "
+    mistakes.PublishesPlainText: "This publisher sends String messages, but got a plain str: put it into a message "
     "first, `msg = String()`, then `msg.data = ...`, then `publish(msg)`.",
-    mistakes.PublishesAnotherType: "This publisher was created for String and got a Float64: use the same type in "
+    mistakes.PublishesAnotherType: "This publisher was created for String, but got a Float64: use the same type in "
     "create_publisher() and publish().",
     mistakes.NodeWithoutName: "A node needs a name: `super().__init__('my_node')`.",
     mistakes.NodeNameWithSpace: "A node's name has only letters, digits and underscores, such as `my_node`: no "
@@ -44,24 +43,23 @@ ADVICE = {
     "is the length of the queue.",
     mistakes.NameBeforeType: "The arguments are in the wrong order: first the message type, then the topic's name, "
     "as in create_publisher(String, 'topic', 10).",
-    mistakes.PublishesPythonsText: "A topic carries messages, and the type of one is wanted there, not a type of "
-    "Python's: String for str, Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import "
+    mistakes.PublishesPythonsText: "A topic carries messages, so it needs the type of a message, not one of Python's: String for str, Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import "
     "String`.",
     mistakes.QueueLengthAsText: "The last argument of create_publisher() and create_subscription() is a number, such "
     "as 10, or a QoSProfile.",
     mistakes.CallbackBeforePeriod: "create_timer() takes the period first, then the callback: "
     "`self.create_timer(1.0, self.callback)`.",
-    mistakes.CallbackCalled: "A callback is handed over without parentheses: `self.callback`, not `self.callback()`.",
+    mistakes.CallbackCalled: "Pass a callback without parentheses: `self.callback`, not `self.callback()`.",
     mistakes.NegativePeriod: "The period of a timer is a number of seconds above 0: "
     "`self.create_timer(0.5, self.callback)`.",
-    mistakes.LogsTwoThings: "A log line is one text: put values into it with an f-string, `info(f'count: {count}')`.",
-    mistakes.LogsANumber: "A log line is one text: put values into it with an f-string, `info(f'count: {count}')`.",
+    mistakes.LogsTwoThings: "A log line is one string: insert values with an f-string, `info(f'count: {count}')`.",
+    mistakes.LogsANumber: "A log line is one string: insert values with an f-string, `info(f'count: {count}')`.",
     mistakes.TimerCallbackWithoutSelf: "A method's first parameter is `self`: write `def tick(self):`; a "
     "subscription's callback is `def tick(self, msg):`.",
     mistakes.TimerCallbackWantsMessage: "`tick` is called without 'msg'. A timer's callback takes nothing but self, a "
-    "subscription's takes self and the message; what else it needs comes from `self`, a lambda or functools.partial.",
+    "subscription's takes self and the message; anything else it needs comes from `self`, a lambda or functools.partial.",
     mistakes.SubscriptionCallbackWithoutMessage: "A subscription's callback takes the message: "
-    "`def callback(self, msg):`, handed over as `self.callback`.",
+    "`def callback(self, msg):`, passed as `self.callback`.",
     mistakes.ForwardsToMethodWithoutMessage: "`obey` is called with a message: write `def obey(self, msg):`.",
     mistakes.UndeclaredParameter: "A parameter is declared before it is read: "
     "`self.declare_parameter('speed', default)`.",
@@ -69,26 +67,22 @@ ADVICE = {
     "used.",
     mistakes.ValueBeforeItIsSet: "`self.count` does not exist (yet): check its spelling; set it in __init__ before "
     "it is used.",
-    mistakes.NothingThere: "What stands before `.publish` is None: it was never set, or comes from a function without "
+    mistakes.NothingThere: "The value before `.publish` is None: it was never set, or comes from a function without "
     "`return`.",
     mistakes.ForgottenImport: "`Imu` is not imported: write `from sensor_msgs.msg import Imu` at the top.",
-    mistakes.MisspeltType: "Python knows no `Strng`. Did you mean `String`? It comes with "
-    "`from std_msgs.msg import String`.",
-    mistakes.ForgottenSelf: "Python knows no `count` here: a typo, a missing import, or a value of the node's "
-    "own, which is `self.count`.",
-    mistakes.ForgottenModule: "Python finds no module `std_msg`: check its spelling. Message packages end in `_msgs` "
+    mistakes.MisspeltType: "Python doesn't know `Strng`. Did you mean `String`? Import it with `from std_msgs.msg import String`.",
+    mistakes.ForgottenSelf: "Python doesn't know `count` here: it is a typo, its import is missing, or it belongs to the node, as `self.count`.",
+    mistakes.ForgottenModule: "Python can't find a module `std_msg`: check its spelling. Message packages end in `_msgs` "
     "and `.msg`, as in `from std_msgs.msg import String`.",
     mistakes.WrongNameFromModule: "`std_msgs.msg` has no `Sting`: check the spelling and the capital letters.",
-    mistakes.DividesByZero: "The number after `/`, `//` or `%` in that line is 0 at that moment. Ask first, with `if`, "
-    "whether it is 0, and say what counts then.",
+    mistakes.DividesByZero: "The number after `/`, `//` or `%` on that line is 0 at that moment. Check for 0 first, with `if`, and decide what should happen then.",
     mistakes.FormatsNothing: "A value in the f-string is None: it was never set, or comes from a function without "
     "`return`.",
-    mistakes.OneLineForTwoLevels: "Each place in the code logs at one level only: with if and else, write a line of "
-    "its own for each level.",
-    mistakes.LevelAsText: "A level is not a text: `from rclpy.logging import LoggingSeverity`, then "
+    mistakes.OneLineForTwoLevels: "Each log call in the code has one level only: with if and else, write a separate call for each level.",
+    mistakes.LevelAsText: "A level is not a string: `from rclpy.logging import LoggingSeverity`, then "
     "`LoggingSeverity.DEBUG` and so on.",
-    mistakes.BeyondTheLast: "The tuple has no item of that number: the first is number 0, the last is len(...) - 1.",
-    mistakes.LoggerWithoutBrackets: "Brackets are missing before `.info`: a method is called with them, as in "
+    mistakes.BeyondTheLast: "The tuple has no item with that number: the first is number 0, the last is len(...) - 1.",
+    mistakes.LoggerWithoutBrackets: "Parentheses are missing before `.info`: a method is called with them, as in "
     "`self.get_logger().info(...)`.",
     mistakes.NotStarted: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.NotStartedWithoutWords: "Write your code, delete the line that raises, and run this cell again.",
@@ -109,12 +103,12 @@ ADVICE = {
     (
         misfits.Listener,
         misfits.NumberTalker,
-    ): "/listener listens to std_msgs/msg/String on /chatter, and here it is std_msgs/msg/Float64: both ends of a "
+    ): "/listener subscribes to /chatter with the type std_msgs/msg/String, but here it is std_msgs/msg/Float64: both ends of a "
     "topic must use the same type.",
     (
         misfits.NumberTalker,
         misfits.Listener,
-    ): "/talker publishes std_msgs/msg/Float64 on /chatter, and here it is std_msgs/msg/String: both ends of a "
+    ): "/talker publishes on /chatter with the type std_msgs/msg/Float64, but here it is std_msgs/msg/String: both ends of a "
     "topic must use the same type.",
 }
 NAMES = [n.__name__ if callable(n) else "+".join(part.__name__ for part in n) for n in ADVICE]

@@ -46,8 +46,7 @@ def test_an_endless_loop_is_a_hang():
 @pytest.mark.parametrize("student", [misfits.LoopsInItsConstructor, misfits.LoopsInACallback])
 def test_an_endless_loop_of_a_node_differs_from_one_of_a_main(student):
     assert fault_of(student).hint == (
-        "Look there for a loop that never ends (`while True:` without a way out), or a wait for something that never "
-        "comes. A callback should do one small step and return."
+        "Look there for a loop that never ends (`while True:` without a way out), or a wait for something that never happens. A callback should do one small step and return."
     )
 
 
@@ -55,8 +54,7 @@ def test_an_echo_of_itself_is_a_livelock():
     fault = fault_of(misfits.Echo)
     assert fault.saw == "20000 callbacks ran at t = 1 s without letting time move on."
     assert fault.hint == (
-        "Callbacks start each other without any time passing: two nodes that answer each other's every message, or a "
-        "timer with period 0. Let a timer with a period set the pace."
+        "Callbacks trigger each other without any time passing: two nodes that answer each other's every message, or a timer with a period of 0. Let a timer with a period set the pace."
     )
     assert not fault.before_start
 
@@ -65,7 +63,7 @@ def test_a_flood_of_messages_differs_from_an_echo():
     fault = fault_of(Flooding)
     assert fault.saw == "/talker sent 20000 messages at t = 1 s without letting time move on."
     assert fault.hint == (
-        "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
+        "A loop publishes again and again without any time passing: let a timer set the pace, or pause in each iteration."
     )
 
 
@@ -73,7 +71,7 @@ def test_a_call_to_oneself_is_blocked():
     fault = fault_of(misfits.Deadlock)
     assert "/poke" in fault.saw
     assert fault.hint == (
-        "Everything waits for something that can't come. Inside a callback, don't wait for another callback of the "
+        "Everything waits for something that can't happen. Inside a callback, don't wait for another callback of the "
         "same node (spin_until_future_complete, client.call): use call_async and add_done_callback, or await."
     )
 

@@ -7,37 +7,32 @@ from sim import run
 from tests.students import flaws, misfits, service_misfits
 from tests.students.engine import after_interrupt, services
 
-STOP = "This robot stops by itself when no command comes; others drive on. Publish a Twist() with all zeros at the end."
+STOP = "This robot stops by itself when no commands arrive; other robots drive on. Publish a Twist() with all zeros at the end."
 SENTENCES = {
     (
         flaws.Driver,
         flaws.SecondDriver,
-    ): "/driver and /second_driver both publish on /cmd_vel, and the robot obeys the "
-    "last one: at 0.1 s 0.2 m/s and 0 rad/s, at 0.1 s 0 m/s and 0 rad/s. Let one node command the robot, and tell it "
-    "what the other wants.",
+    ): "/driver and /second_driver both publish on /cmd_vel, and the robot obeys the latest command: at 0.1 s 0.2 m/s and 0 rad/s, at 0.1 s 0 m/s and 0 rad/s. Let one node command the robot, and have the other one send its requests to that node.",
     (
         flaws.CommandsOnceASecond,
-    ): "/driver lets up to 1 s pass between two commands on /cmd_vel, and the robot stops "
-    "by itself 0.5 s after each: repeat the command at 10 Hz, from a timer.",
+    ): "/driver lets up to 1 s pass between two commands on /cmd_vel, but the robot stops by itself 0.5 s after each: repeat the command at 10 Hz, from a timer.",
     (flaws.FallsSilent,): f"The last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s. {STOP}",
     (
         flaws.DividesByTheDistance,
-    ): "/driver sent inf m/s and 0 rad/s on /cmd_vel at 0.1 s, and the robot refuses what "
-    "is not a finite number. In the scan of 0.1 s ray 0 says inf (nothing is there).",
+    ): "/driver sent inf m/s and 0 rad/s on /cmd_vel at 0.1 s, and the robot refuses anything that isn't a finite number. In the scan of 0.1 s ray 0 is inf (nothing is there).",
     (
         flaws.Chatter,
         flaws.SleepsOverMessages,
-    ): "/sleeper took 9 of 50 messages: SleepsOverMessages.on_message held it for "
-    "up to 0.5 s each time, and the next ones came meanwhile. A callback should store the message, and return.",
+    ): "/sleeper took 9 of 50 messages: SleepsOverMessages.on_message blocked it for up to 0.5 s each time, and more messages arrived meanwhile. A callback should store the message and return.",
     (
         flaws.TalksWithoutAPause,
-    ): "A loop without a pause keeps a whole core of the processor busy from 0 s on: thread "
-    "TalksWithoutAPause.talk(), at line 95: while rclpy.ok():. Let a timer do what is in it, or put "
-    "time.sleep(0.01) there.",
+    ): "From 0 s on, a loop without a pause keeps a whole processor core busy: thread "
+    "TalksWithoutAPause.talk(), at line 95: while rclpy.ok():. Move what it does into a timer's callback, or add "
+    "time.sleep(0.01).",
     (
         misfits.SleepyTalker,
     ): "The timer of /talker fired once in 5 s; 5 were due. Most likely SleepyTalker.tick "
-    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
+    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it blocked the node for 3 s. "
     "Let the timer do the waiting.",
     (
         misfits.main_without_spin,
@@ -45,10 +40,10 @@ SENTENCES = {
     "node spins: call rclpy.spin(node) in main().",
 }
 AT_A_WALL = {
-    flaws.TakesTooNearForFree: "The robot's front touched a wall at 6.04 s, and /driver drives on against it: 0.5 m/s "
-    "and 0 rad/s at 7.5 s. In the scan of 7.5 s ray 0 says -inf (something is too near to be measured).",
-    flaws.BacksBlindly: "The robot's back touched a wall at 6.04 s, and /driver drives on against it: -0.5 m/s and 0 "
-    "rad/s at 7.5 s. Stop before, as soon as the lidar sees something near.",
+    flaws.TakesTooNearForFree: "The robot's front touched a wall at 6.04 s, and /driver keeps driving against it: 0.5 m/s "
+    "and 0 rad/s at 7.5 s. In the scan of 7.5 s ray 0 is -inf (something is too near to be measured).",
+    flaws.BacksBlindly: "The robot's back touched a wall at 6.04 s, and /driver keeps driving against it: -0.5 m/s and 0 "
+    "rad/s at 7.5 s. Stop earlier, as soon as the lidar sees something near.",
     flaws.TurnsAwayAtAWall: "",
 }
 

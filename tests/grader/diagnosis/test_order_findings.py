@@ -20,43 +20,40 @@ SENTENCES = {
         orders.Pairs,
         orders.TwoTopics,
     ): "Pairs.on_b uses self.last, which only Pairs.on_a sets and which starts as None. "
-    "Nothing fixes which of the two runs first; in this run Pairs.on_a did, at 0.1 s, and Pairs.on_b at 0.1 s. Begin "
+    "Nothing determines which of the two runs first; in this run Pairs.on_a did, at 0.1 s, and Pairs.on_b at 0.1 s. Begin "
     "Pairs.on_b with `if self.last is None: return`.",
     (
         orders.PairsWithoutInit,
         orders.TwoTopics,
     ): "PairsWithoutInit.on_b uses self.offset, which only PairsWithoutInit.on_a sets and which does not exist before "
-    "that. Nothing fixes which of the two runs first; in this run PairsWithoutInit.on_a did, at 0.1 s, and "
+    "that. Nothing determines which of the two runs first; in this run PairsWithoutInit.on_a did, at 0.1 s, and "
     "PairsWithoutInit.on_b at 0.1 s. Set self.offset = None in __init__, and begin PairsWithoutInit.on_b with `if "
     "self.offset is None: return`.",
     (
         orders.TwoTimers,
     ): "TwoTimers.step sets self.steps, and TwoTimers.send uses it. Both are timers of /two_timers with a period of "
-    "0.1 s. Today's rclpy runs the one first that was created first, and nothing guarantees it: TwoTimers.send gets the "
+    "0.1 s. The current rclpy first runs the one that was created first, but nothing guarantees that: TwoTimers.send gets the "
     "value of this period or of the one before. Do both in one callback, in the order that they need.",
     (
         orders.Stock,
         orders.Shop,
     ): "Stock.buy tests self.left, awaits, and then uses self.left; during the await, at 0.6 s, another execution of "
-    "Stock.buy changed it. What was tested may no longer be true. Test self.left again after the await, or change it "
+    "Stock.buy changed it. The result of the test may no longer hold. Test self.left again after the await, or change it "
     "before the await.",
     (
         orders.count_with_threads,
         orders.TwoTopics,
-    ): "Counter.on_a reads self.count and writes it back, and may run at the same time as Counter.on_b, which changes "
-    "it, too: the executor has several threads, and the two have different callback groups. A change that the other "
+    ): "Counter.on_a reads self.count and writes it back, and may run at the same time as Counter.on_b, which also changes it: the executor has several threads, and the two have different callback groups. A change that the other "
     f"makes in between is lost. {LOCK.format('count')}",
     (
         orders.count_reentrantly,
         orders.TwoTopics,
-    ): "CountsReentrantly.on_a reads self.count and writes it back, and may run at the same time as itself, which "
-    "changes it, too: the executor has several threads, and the callback group is reentrant. A change that the other "
+    ): "CountsReentrantly.on_a reads self.count and writes it back, and may run at the same time as itself, which also changes it: the executor has several threads, and the callback group is reentrant. A change that the other "
     f"makes in between is lost. {LOCK.format('count')}",
     (
         orders.Works,
         orders.TwoTopics,
-    ): "Works.on_a reads self.sum and writes it back, and may run at the same time as Works.work, which changes it, "
-    "too: Works.work runs in a thread of its own. A change that the other makes in between is lost. "
+    ): "Works.on_a reads self.sum and writes it back, and may run at the same time as Works.work, which also changes it: Works.work runs in a thread of its own. A change that the other makes in between is lost. "
     f"{LOCK.format('sum')}",
     (
         orders.lock_with_threads,

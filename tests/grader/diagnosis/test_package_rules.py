@@ -27,7 +27,7 @@ def test_each_advice_is_earned(rule):
 
 
 @pytest.mark.parametrize(
-    "words", ["A package's own modules are found", "patrol.driver has no mian", "was not installed"]
+    "words", ["The full name of a package's module", "patrol.driver has no mian", "was not installed"]
 )
 def test_each_advice_on_own_modules_is_earned(words):
     assert any(words in hint for hint in HINTS)
@@ -36,15 +36,15 @@ def test_each_advice_on_own_modules_is_earned(words):
 def test_elsewhere_a_module_that_is_not_there_has_its_usual_advice():
     error = CallbackError(0.0, "/n", "main", "ModuleNotFoundError", "No module named 'speeds'", "")
     assert own_module(error, Recording()) == ""
-    assert advice(error).startswith("Python finds no module `speeds`")
+    assert advice(error).startswith("Python can't find a module `speeds`")
 
 
 @pytest.mark.parametrize(
     ("arguments", "hint"),
     {
-        "turtlesim multism.launch.py": "Is the name misspelt? Write multisim.launch.py.",
-        "turtlesmi multisim.launch.py": "Is the name misspelt? Write turtlesim.",
-        "zzz.launch.py": "A path begins in the folder that is named; `ls` shows what is there.",
+        "turtlesim multism.launch.py": "Is the name misspelled? Write multisim.launch.py.",
+        "turtlesmi multisim.launch.py": "Is the name misspelled? Write turtlesim.",
+        "zzz.launch.py": "The path is relative to the folder that is named; `ls` shows what is there.",
         "turtlesim zzz.launch.py": "zzz.launch.py was not installed. In setup.py, data_files needs "
         "('share/' + package_name + '/launch', glob('launch/*')).",
     }.items(),

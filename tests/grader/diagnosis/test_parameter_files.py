@@ -27,8 +27,8 @@ def hint(*arguments):
 )
 def test_a_word_that_yaml_reads_as_true_or_false_is_named(word, words, value, quoted):
     assert hint("-p", f"axis:={word}") == (
-        f"The parameter `axis` is a text, and YAML reads {words} and {value} without quotes as {value}. Quote it "
-        f'in a file of parameters: axis: "{quoted}". A launch file\'s parameters={{...}} loses the quotes: write '
+        f"The parameter `axis` is text, but YAML reads {words} and {value} without quotes as {value}. Quote it "
+        f'in a parameter file: axis: "{quoted}". A launch file\'s parameters={{...}} loses the quotes: write '
         f"ros_arguments=['-p', 'axis:=\"{quoted}\"'] there."
     )
 
@@ -57,8 +57,7 @@ def test_a_list_of_two_types_is_named_with_its_file_line_and_key(tmp_path, value
     file = tmp_path / "axis.yaml"
     file.write_text(f"/**:\n  ros__parameters:\n    gains: {values}\n    axis: x\n")
     assert hint("--params-file", str(file)) == (
-        f"{file}, line {line}: the list `gains` has a value of type {kind} after one of another type, and all "
-        "values of a list have one type. `1` and `1.0` are two types, and a text is a third."
+        f"{file}, line {line}: the list `gains` has a value of type {kind} after one of another type, but all values of a list must have the same type. `1` and `1.0` have different types, and text is a third."
     )
 
 
@@ -68,6 +67,5 @@ def test_without_the_file_the_key_is_left_out():
         "Value type 'bool' do not belong at line_num 3, at"
     )
     assert mixed_list(CallbackError(0.0, "/n", "main", "RCLInvalidROSArgsError", text, "")) == (
-        "no.yaml, line 3: a list has a value of type bool after one of another type, and all values of a list "
-        "have one type. `1` and `1.0` are two types, and a text is a third."
+        "no.yaml, line 3: a list has a value of type bool after one of another type, but all values of a list must have the same type. `1` and `1.0` have different types, and text is a third."
     )

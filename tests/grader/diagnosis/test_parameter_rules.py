@@ -10,22 +10,22 @@ from sim import run
 from tests.students import parameter_mistakes as mistakes
 
 ADVICE = {
-    "whole_number_at_the_start": "The parameter `radius` got 1, which is of type INTEGER, but it is declared as DOUBLE: its default says so. `1` and `1.0` are two types; use the same one in both places.",
+    "whole_number_at_the_start": "The parameter `radius` got 1, which is of type INTEGER, but it is declared as DOUBLE: its default decides that. `1` and `1.0` have different types; use the same one in both places.",
     "DeclaresTwice": "The parameter `radius` is declared twice: call declare_parameter('radius', default) once, in __init__.",
-    "DeclaresWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0), or give the program parameters={'width': ...}.",
-    "ReckonsWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0).",
+    "DeclaresWithoutAValue": "The parameter `width` has no value: it was declared without one, and none was given at the start. Declare it with a default, declare_parameter('width', 1.0), or give the program parameters={'width': ...}.",
+    "ReckonsWithoutAValue": "The parameter `width` has no value: it was declared without one, and none was given at the start. Declare it with a default, declare_parameter('width', 1.0).",
     "SetsPairs": "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with `from rclpy.parameter import Parameter`.",
-    "ComputesWithTheParameter": "A parameter is not a number, it has one in it: `self.get_parameter('name').value`.",
-    "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
-    "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
-    "ReturnsNothing": "The check has to return a SetParametersResult for each value, also for one that is fine: end it with `return SetParametersResult(successful=True)`.",
-    "RefusesItsDefault": "The check refuses 0.1, with which `radius` starts: its default, or the value that the program was given. Which values does it let through?",
+    "ComputesWithTheParameter": "A parameter is not a number; it contains one: `self.get_parameter('name').value`.",
+    "CallsTheCheck": "Pass a callback without parentheses: `add_on_set_parameters_callback(self.check)`.",
+    "ChecksOneParameter": "The check receives a list, because several parameters may be set at once: loop with `for parameter in parameters:`, and use `parameter.value`.",
+    "ReturnsNothing": "The check has to return a SetParametersResult for every value, even for a valid one: end it with `return SetParametersResult(successful=True)`.",
+    "RefusesItsDefault": "The check refuses 0.1, the value that `radius` starts with: its default, or the one that the program was given. Which values does the check accept?",
     "SaysYesByPosition": "The fields of a result are set by name: SetParametersResult(successful=True), or SetParametersResult(successful=False, reason='...').",
-    "launches_an_object": "The class itself is handed over, without brackets after its name: Wheel, not Wheel().",
-    "launches_with_a_keyword": "A Process takes parameters as a dictionary, names and values: `Process(NodeClass, parameters={'radius': ...})`.",
-    "launches_with_text": "A dictionary is wanted there, names and values, and a str came: write `{'name': value}`.",
-    "LooksUpAWordThatIsNotThere": "The dictionary has no 'square': is it a typo? Where it comes from outside, refuse what is not in the dictionary: `if value not in dictionary:`.",
-    "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `await` it first, or take `future.result().sum` in its done callback.",
+    "launches_an_object": "Pass the class itself, without parentheses after its name: Wheel, not Wheel().",
+    "launches_with_a_keyword": "A Process takes parameters as a dictionary of names and values: `Process(NodeClass, parameters={'radius': ...})`.",
+    "launches_with_text": "A dictionary of names and values is needed there, not a str: write `{'name': value}`.",
+    "LooksUpAWordThatIsNotThere": "The dictionary has no key 'square': is it a typo? If the key comes from outside, refuse any that isn't in the dictionary: `if value not in dictionary:`.",
+    "TakesTheFutureForTheAnswer": "A future has the response only once it has arrived: `await` it first, or use `future.result().sum` in its done callback.",
 }
 
 

@@ -9,26 +9,26 @@ from grader.diagnosis.python_rules import PYTHON_RULES
 from sim import run
 from tests.students import python_mistakes as mistakes
 
-BLOCK = "Lines of one block begin in the same column: four spaces for each step, and no tabs."
+BLOCK = "Lines of one block begin in the same column: indent by four spaces for each level, never with tabs."
 ADVICE = {
-    "AddsOtherShapes": "Arrays of the shapes (3,) and (2,) don't fit together: for `+`, `-`, `*` and comparisons they must be equal, or one of them a single number. `.shape` says what an array has.",
-    "FillsTooSmallAPlace": "Values of the shape (3,) don't fit into a place of the shape (2,): both sides of `=` need the same.",
-    "MultipliesOtherShapes": "In `a @ b` the number of a's columns must be that of b's rows; here they are 3 and 2.",
-    "DotsOtherShapes": "Arrays of the shapes (2,3) and (2,) can't be multiplied: a needs as many columns as b has rows.",
-    "ChoosesByAnotherLength": "What chooses from an array must be as long as the array: this has 2 values, and True or False came for 4.",
-    "AsksAnArray": "An array is not True or False as a whole: `(...).any()` asks whether one of them is, `(...).all()` whether each is.",
-    "ForgetsToIndent": "What belongs to the function definition on line 1 stands further right, by four spaces.",
+    "AddsOtherShapes": "Arrays with the shapes (3,) and (2,) don't fit together: for `+`, `-`, `*` and comparisons the shapes must be equal, or one of the two must be a single number. `.shape` gives the shape of an array.",
+    "FillsTooSmallAPlace": "Values with the shape (3,) don't fit where the shape (2,) is needed: both sides of `=` need the same shape.",
+    "MultipliesOtherShapes": "In `a @ b` the number of a's columns must equal the number of b's rows; here they are 3 and 2.",
+    "DotsOtherShapes": "Arrays with the shapes (2,3) and (2,) can't be multiplied: a needs as many columns as b has rows.",
+    "ChoosesByAnotherLength": "A mask must be as long as the array that it selects from: the array has 2 values, the mask 4.",
+    "AsksAnArray": "An array is not True or False as a whole: `(...).any()` tests whether at least one value is, `(...).all()` whether all of them are.",
+    "ForgetsToIndent": "Indent what belongs to the function definition on line 1 by four more spaces.",
     "IndentsTooFar": BLOCK,
     "MixesTabs": BLOCK,
     "ForgetsTheColon": "A colon is missing at the end of that line: `if`, `else`, `for`, `while`, `def` and `class` need one.",
-    "ForgetsABracket": "The `(` on that line has no partner that closes it.",
-    "WritesNonsense": "Python can't read that line: look at its brackets, quotes, commas and colons.",
+    "ForgetsABracket": "The `(` on that line is never closed.",
+    "WritesNonsense": "Python can't read that line: check its brackets, quotes, commas and colons.",
     "SleepsWithAsyncio": "`asyncio.sleep()` works only in asyncio's event loop, and a callback that is a coroutine runs in rclpy's executor. For a pause, await a future that a timer completes: `pause = Future(); timer = self.create_timer(0.5, lambda: pause.set_result(None)); await pause; timer.cancel()`, with `from rclpy.task import Future`.",
-    "awaits_in_asyncios_loop": "rclpy runs this coroutine, and can't wait for a future of asyncio. Start a task of asyncio in the callback, `asyncio.create_task(...)`, and return at once.",
+    "awaits_in_asyncios_loop": "rclpy runs this coroutine, and can't await an asyncio future. Start an asyncio task in the callback, `asyncio.create_task(...)`, and return at once.",
     "OpensNoFile": "There is no file `map.yaml`. A name without a slash in front is looked for in the folder that the program was started in, here the notebook's: `os.getcwd()` names it, `os.listdir()` what is in it.",
     "StartsNoProgram": "There is no program `ros2` on this machine. What it would do can often be done in Python: a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do.",
-    "MakesAnIntOfInf": "inf and -inf have no whole number: ask `math.isfinite(number)` first.",
-    "MakesAnIntOfNan": "nan has no whole number: ask `math.isfinite(number)` first.",
+    "MakesAnIntOfInf": "inf and -inf can't be converted to a whole number: check `math.isfinite(number)` first.",
+    "MakesAnIntOfNan": "nan can't be converted to a whole number: check `math.isfinite(number)` first.",
 }
 
 
@@ -60,8 +60,8 @@ def test_code_that_cannot_be_read_is_shown_at_the_line_of_the_fault_not_at_its_i
 
 def test_a_ray_without_a_distance_is_named_with_what_it_means():
     assert find_fault(record("MapsEveryRay", mistakes.Scanner)).hint == (
-        "In the scan of 0.5 s ray 1 says inf (nothing is there), ray 3 says -inf (something is too near to be "
-        "measured), ray 5 says nan (the ray got lost, and every comparison with nan is False). Check `math.isfinite(distance)` before you calculate with it."
+        "In the scan of 0.5 s ray 1 is inf (nothing is there), ray 3 is -inf (something is too near to be "
+        "measured), ray 5 is nan (the ray got lost, and every comparison with nan is False). Check `math.isfinite(distance)` before you calculate with it."
     )
 
 

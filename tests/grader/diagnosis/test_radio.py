@@ -7,23 +7,20 @@ from grader.diagnosis import explain, find_flaw
 from sim import Network, Process, run
 from tests.students.engine import network
 
-LOST = "123 messages of 300 on /count from /counter to /listener were lost on the network: "
+LOST = "123 of 300 messages on /count from /counter to /listener were lost on the network: "
 SENTENCES = [
     (
         network.SloppyCounter, network.SloppyListener, {"network": Network(loss=0.4)},
-        LOST + "an end with reliability best_effort sends nothing again. What must arrive needs reliable at "
-        "both ends.",
+        LOST + "with reliability best_effort at one end, nothing is sent again. Messages that must arrive need reliable at both ends.",
     ),
     (
         network.ShallowCounter, network.Listener, {"network": Network(loss=0.1, delay=0.02), "seconds": 4, "seed": 2},
-        "1 message of 40 on /count from /counter to /listener was lost on the network: both ends are reliable, but "
-        "newer ones pushed them out of the publisher's history before they could be sent again. A larger depth "
+        "1 of 40 messages on /count from /counter to /listener was lost on the network: both ends are reliable, but newer messages pushed them out of the publisher's history before they could be sent again. A larger depth "
         "keeps them longer.",
     ),
     (
         network.DeepCounter, network.Listener, {"network": Network(loss=0.1, delay=0.02), "seed": 1},
-        "On /count a message from /counter reached /listener 3.9 s late: the network lost some, and with reliable at "
-        "both ends all wait until these were sent again. Where only the newest counts, use best_effort.",
+        "On /count a message from /counter reached /listener 3.9 s late: the network lost some, and with reliable at both ends all others wait until these have been sent again. Where only the newest message counts, use best_effort.",
     ),
     (network.Counter, network.Listener, {"network": Network(delay=1.0)}, ""),
 ]  # fmt: skip

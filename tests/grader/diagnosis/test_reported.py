@@ -7,14 +7,13 @@ from sim import run
 from tests.students import reported
 
 TWO_EXECUTORS = (
-    "At 0 s a second executor took over /ticker, and the first one, which also spins, runs none of its callbacks "
-    "any more: a node belongs to one executor. Spin it with one. `rclpy.spin_once(node)` and "
+    "At 0 s a second executor took over /ticker, and the first one, which also spins, no longer runs any of its callbacks: a node belongs to one executor. Spin it with one. `rclpy.spin_once(node)` and "
     "`rclpy.spin_until_future_complete(node, future)` use an executor of their own unless you pass "
     "`executor=node.executor`."
 )
 CATCH = "Catch tf2_ros.TransformException around the lookup: at the start some transforms are missing."
 UNTYPED = (
-    "The parameter `names` got a list of type STRING_ARRAY, and was declared with an empty list, which rclpy takes "
+    "The parameter `names` got a list of type STRING_ARRAY, but was declared with an empty list, which rclpy takes "
     "for a BYTE_ARRAY: `[]` doesn't show what is in the list. Declare the type: `self.declare_parameter('names', "
     "Parameter.Type.STRING_ARRAY)`, with `from rclpy.parameter import Parameter`; the parameter then has no value "
     "until it is set."
@@ -25,10 +24,9 @@ LOST = (
     "transient_local at both ends)."
 )
 UNCONFIGURED = (
-    "/camera is unconfigured, and a lifecycle node has no transition activate in this state: possible is configure or "
-    "shutdown. Read the state first (`ros2 lifecycle get /camera`, or the service get_state), and go through the "
-    "states in order: configure, activate, deactivate, cleanup. rclpy does not refuse a wrong request, it raises, and "
-    "the node dies."
+    "/camera is unconfigured, and a lifecycle node has no transition activate in this state (possible: configure or shutdown). "
+    "Read the state first (`ros2 lifecycle get /camera`, or the service get_state), and go through the "
+    "states in order: configure, activate, deactivate, cleanup. rclpy does not refuse a wrong request: it raises an exception, and the node dies."
 )
 ADVICE = {
     (
@@ -40,16 +38,13 @@ ADVICE = {
     (
         reported.Scanner,
         reported.LooksUpAtTheStamp,
-    ): "The transform for time 1735689601.200000 has not arrived yet: "
-    "the newest is of time 1735689601.000000. A transform often arrives later than the measurement with its stamp. "
+    ): "The transform for time 1735689601.200000 has not arrived yet: the newest is for time 1735689601.000000. A transform often arrives later than the measurement with its stamp. "
     "Use the newest one, with `rclpy.time.Time()` in place of the stamp, or wait for it: "
-    "`timeout=Duration(seconds=0.2)`, in a node that a `MultiThreadedExecutor` spins, so that it receives "
-    f"meanwhile. {CATCH}",
+    f"`timeout=Duration(seconds=0.2)`, in a node that a `MultiThreadedExecutor` spins, so that it keeps receiving meanwhile. {CATCH}",
     (
         reported.Scanner,
         reported.LooksUpTooOld,
-    ): "The buffer has nothing of time 1735689600.000000: its earliest "
-    "transform is of time 1735689600.500000. It holds the last 10 s, and nothing from before the listener started. "
+    ): "The buffer has no transform for time 1735689600.000000: its earliest is for time 1735689600.500000. It holds the last 10 s, and nothing from before the listener started. "
     + CATCH,
     (
         reported.Scanner,
@@ -73,16 +68,13 @@ FLAWS = {
     (
         reported.sleeps_in_its_cancel_callback,
         reported.Canceling,
-    ): "/canceling asked at 1.1 s to cancel its goal, and "
-    "the cancel callback of /counting took 2 s; meanwhile the goal went on, and ended. Return CancelResponse.ACCEPT "
-    "at once, and do what takes time in execute, once goal_handle.is_cancel_requested is True.",
+    ): "/canceling requested at 1.1 s that its goal be canceled, but the cancel callback of /counting took 2 s; meanwhile the goal carried on and ended. Return CancelResponse.ACCEPT at once, and do anything that takes time in execute, once goal_handle.is_cancel_requested is True.",
     (reported.Once, reported.Listener): LOST.format("0"),
     (reported.Once, reported.listens_late): LOST.format("0"),
     (
         reported.OnceWithALifespan,
         reported.listens_late_to_latched,
-    ): "/once sent its only message on /chatter at 0.5 s, and it "
-    "expired before /listener took it: the lifespan is 0.1 s. Spin the node from the start, or use a longer lifespan.",
+    ): "/once sent its only message on /chatter at 0.5 s, and it expired before /listener received it: the lifespan is 0.1 s. Spin the node from the start, or use a longer lifespan.",
 }
 
 

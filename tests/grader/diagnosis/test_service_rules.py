@@ -19,7 +19,7 @@ RESPONSE = (
     "A service's callback returns the response that it was given, with its fields set; this one returned {}. "
     "End it with `return response`."
 )
-RESULT = "An execute callback has to give the result back: end it with `return Fibonacci.Result(...)`."
+RESULT = "An execute callback has to return the result: end it with `return Fibonacci.Result(...)`."
 NO_SERVICE = (
     "This is not the type of a service. Services come from packages' `.srv`, as in `from std_srvs.srv import SetBool`; "
     "actions from `.action`, as in `from example_interfaces.action import Fibonacci`."
@@ -27,16 +27,15 @@ NO_SERVICE = (
 OTHER_TYPE = "Another node uses {} with another type: client and server must use the same one."
 
 ADVICE = {
-    mistakes.ForgetsToReturnTheResponse: "The service's callback has to give its answer back: end it with "
+    mistakes.ForgetsToReturnTheResponse: "The service's callback has to return its response: end it with "
     "`return response`.",
     mistakes.ReturnsTheSum: RESPONSE.format("int"),
     mistakes.ReturnsTheRequest: RESPONSE.format("AddTwoInts_Request"),
-    mistakes.AnswersWithoutResponse: "`answer` is called with two things, as a service's callback is: write "
+    mistakes.AnswersWithoutResponse: "`answer` is called with two arguments, as a service's callback is: write "
     "`def answer(self, request, response):`.",
-    mistakes.FieldOfTheResponseMisspelt: "AddTwoInts.Response has no `summ`: check its spelling. Of a message, "
-    "`AddTwoInts.Response.get_fields_and_field_types()` lists the fields.",
+    mistakes.FieldOfTheResponseMisspelt: "AddTwoInts.Response has no `summ`: check its spelling. For a message, `AddTwoInts.Response.get_fields_and_field_types()` lists the fields.",
     mistakes.CallsWithNumbers: REQUEST,
-    mistakes.CallsWithTheClass: "A call takes a request, not its class: `request = AddTwoInts.Request()`, with brackets.",
+    mistakes.CallsWithTheClass: "A call takes a request, not its class: `request = AddTwoInts.Request()`, with parentheses.",
     mistakes.CallsWithTheResponse: REQUEST,
     mistakes.ServesAnotherType: OTHER_TYPE.format("/sum"),
     mistakes.AsksForAnotherType: OTHER_TYPE.format("/sum"),
@@ -46,14 +45,12 @@ ADVICE = {
     "create_service(Type, 'name', self.callback).",
     mistakes.TypeAfterName: "The arguments are in the wrong order: first the type, then the name, as in "
     "create_service(SetBool, '/arm', self.arm).",
-    mistakes.HandsOverWhatTheCallbackReturns: "`answer` is called without what it needs. As a callback it is handed over "
-    "without brackets, `self.answer`: ROS calls it, and fills in the rest.",
-    mistakes.ComparesAListWithANumber: "A list is not a number: len(...) says how many things are in it.",
+    mistakes.HandsOverWhatTheCallbackReturns: "`answer` is called without its arguments. Pass a callback without parentheses, `self.answer`: ROS calls it, and fills in the arguments.",
+    mistakes.ComparesAListWithANumber: "A list is not a number: len(...) counts the items in it.",
     mistakes.SaysSuccess: "A goal handle has no `success`. It has succeed(), abort() and canceled(), "
     "publish_feedback(message), and is_cancel_requested.",
-    mistakes.JudgesAGoalHandle: "The goal callback gets the goal itself, and no goal handle: leave out `.request`.",
-    mistakes.CallsAValue: "What stands before the brackets is a value of type bool, not a method: leave the brackets "
-    "out.",
+    mistakes.JudgesAGoalHandle: "The goal callback receives the goal itself, not a goal handle: leave out `.request`.",
+    mistakes.CallsAValue: "The value before the parentheses is of type bool, not a method: leave the parentheses out.",
     mistakes.ReturnsNoResult: RESULT,
     mistakes.ReturnsTheFeedback: RESULT,
     mistakes.PublishesAListAsFeedback: FEEDBACK,
@@ -62,38 +59,34 @@ ADVICE = {
     "then return.",
     mistakes.CancelsWithoutBeingAsked: "canceled() is for a goal that a client wants to cancel: call it only when "
     "goal_handle.is_cancel_requested is True; abort() is for what went wrong.",
-    mistakes.AsksTheHandleForTheOrder: "What the client asks for is in the request of the goal handle: "
+    mistakes.AsksTheHandleForTheOrder: "The client's request is in the goal handle: "
     "`goal_handle.request.order`.",
     mistakes.SendsANumber: GOAL,
     mistakes.SendsTheWholeAction: GOAL,
     mistakes.ReceivesFeedbackWithoutFeedback: "The message of a feedback callback has the feedback inside: "
     "`msg.feedback.sequence`.",
-    mistakes.ReadsTheResultOfTheHandle: "The first answer only says whether the goal is accepted. The result comes "
+    mistakes.ReadsTheResultOfTheHandle: "The first response only says whether the goal was accepted. The result comes "
     "later: `goal_handle.get_result_async().add_done_callback(self.on_result)`.",
-    mistakes.ReadsTheSequenceOfTheAnswer: "What comes in the end has two parts, a status and the result: "
+    mistakes.ReadsTheSequenceOfTheAnswer: "The final response has two parts, a status and the result: "
     "`future.result().result.sequence`.",
-    mistakes.ReadsTheStatusOfTheResult: "The status is beside the result, not in it: `future.result().status`.",
+    mistakes.ReadsTheStatusOfTheResult: "The status is next to the result, not in it: `future.result().status`.",
     mistakes.KeepsTheGoalAsHandle: "Every node has a `handle` of its own: take another name, such as `self.my_handle`.",
     mistakes.ActionServerWithoutCallback: "ActionServer() is missing an argument: write "
     "ActionServer(self, Type, 'name', self.execute).",
     mistakes.SendsGoalsOfAnotherType: OTHER_TYPE.format("/count"),
-    mistakes.ServesAnObjectOfTheType: "A type of a service or an action is handed over as it is, without brackets: "
+    mistakes.ServesAnObjectOfTheType: "Pass the type of a service or an action as it is, without parentheses: "
     "`SetBool`, not `SetBool()`.",
-    mistakes.PublishesTheWholeAnswer: "This publisher sends String messages, and got a whole AddTwoInts.Response: take "
-    "the field that you need out of it, and put that into a message, as in `String(data=...)`.",
+    mistakes.PublishesTheWholeAnswer: "This publisher sends String messages, but got a whole AddTwoInts.Response: take the field that you need out of it, and put that into a message, as in `String(data=...)`.",
     mistakes.AsksByPosition: "Its fields are set by name, as in `AddTwoInts.Request(field=value)`; "
     "`AddTwoInts.Request.get_fields_and_field_types()` lists them.",
-    mistakes.SendsTheGoalOfAnotherAction: "This client is for Fibonacci, and got a goal of Wait: each action has a "
-    "client of its own.",
+    mistakes.SendsTheGoalOfAnotherAction: "This client is for Fibonacci, but got a goal of Wait: each action needs a client of its own.",
     mistakes.TellsFeedbackByKeyword: "Feedback is one message, with the values in it: "
     "`publish_feedback(Type.Feedback(sequence=...))`, with the type of the action.",
-    mistakes.LooksForRejected: "Whether the goal is accepted is in `accepted`, True or False: "
+    mistakes.LooksForRejected: "The field `accepted` says whether the goal was accepted, True or False: "
     "`if not goal_handle.accepted:`.",
-    mistakes.CancelsByTheClient: "A client sends goals; what happens to one of them goes over its goal handle, which "
-    "the first answer brings: `self.goal_handle.cancel_goal_async()`.",
-    mistakes.SetsAFieldOfAClass: "`data` was set in the class of this message before, for brackets were missing, as in "
-    "`result = Spin.Result()`. Put them there, and restart the kernel: until then the class stays so.",
-    mistakes.spins_the_class: "A node is wanted there, not its class: `node = Runner()`, with brackets, makes one.",
+    mistakes.CancelsByTheClient: "A client sends goals; everything about one goal goes through its goal handle, which the first response contains: `self.goal_handle.cancel_goal_async()`.",
+    mistakes.SetsAFieldOfAClass: "`data` was set in the class of this message before, because the parentheses of `result = Spin.Result()` were missing. Add them, and restart the kernel: until then the class stays changed.",
+    mistakes.spins_the_class: "A node is needed there, not its class: `node = Runner()`, with parentheses, creates one.",
 }
 
 

@@ -17,13 +17,12 @@ from tests.students.engine.actions import Server
 from tests.students.engine.services import Adder, Customer, SlowAdder
 from tests.students.parameter_mistakes import Wheel
 
-NO = "An exception doesn't refuse anything: it ends the node, and the client waits for an answer that never comes. Say no in the "
+NO = "An exception doesn't refuse anything: it ends the node, and the client waits for a response that never arrives. Refuse in the "
 TOO_EARLY = (
-    "The answer isn't there yet: {} returns at once, with a future that is still empty. "
-    "`future.add_done_callback(self.on_response)`, without brackets after the method, lets ROS call it once the answer has "
-    "come; there future.result() is the answer."
+    "The response isn't there yet: {} returns at once, with a future that is still empty. "
+    "`future.add_done_callback(self.on_response)`, without parentheses after the method, lets ROS call it once the response has arrived; there, future.result() is the response."
 )
-GENERAL = "Read the line it names, and think what its values are at that moment; `print` shows them."
+GENERAL = "Read the line that it names, and think about the values there at that moment; `print` shows them."
 
 
 class AsksItself(Node):
@@ -201,44 +200,41 @@ def record(*nodes):
 
 
 ADVICE = {
-    (RaisesForNo,): NO + "answer: response.success = False, response.message = the reason, return response.",
-    (RaisesForNoSum, Receives): NO + "answer: set its fields, and return the response.",
+    (RaisesForNo,): NO + "response: response.success = False, response.message = the reason, return response.",
+    (RaisesForNoSum, Receives): NO + "response: set its fields, and return the response.",
     (TyposInAService,): GENERAL,
     (RaisesInATimer,): GENERAL,
     (
         Tuner,
         RaisesForABadValue,
-    ): "An exception doesn't refuse anything, it ends the node. To refuse a value, return "
+    ): "An exception doesn't refuse anything; it ends the node. To refuse a value, return "
     'SetParametersResult(successful=False, reason="...").',
     (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
     (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
     (Server, LooksIntoTheGoalAtOnce): TOO_EARLY.format("send_goal_async"),
     (Server, TakesTheResultOfAGoalAtOnce): TOO_EARLY.format("get_result_async"),
-    (SendsAParameter,): "get_parameter() gives a parameter, which holds a value: write "
+    (SendsAParameter,): "get_parameter() returns a parameter, which contains a value: write "
     "self.get_parameter('name').value.",
     (
         SendsAWrongValue,
     ): "`data` takes a number with a decimal point: set `msg.data = 1.0`, not `1`; `float(value)` converts.",
     (
         CallsItsCallback,
-    ): "`look` is called there without all that it needs. A callback is handed over without brackets, "
-    "`self.look`. And a star unpacks a pair: `self.look(*pair)`.",
+    ): "`look` is called there without all of its arguments. Pass a callback without parentheses, `self.look`. And a star unpacks a pair: `self.look(*pair)`.",
     (
         HandsAPairOver,
-    ): "`drive` is called there without all that it needs. A callback is handed over without brackets, "
-    "`self.drive`. And a star unpacks a pair: `self.drive(*pair)`.",
+    ): "`drive` is called there without all of its arguments. Pass a callback without parentheses, `self.drive`. And a star unpacks a pair: `self.drive(*pair)`.",
     (
         GivesNothingBack,
-    ): "`data` takes a number with a decimal point, such as 1.0, and gets what `nearest` gives back: "
-    "does every way through it end with `return` and one such number? `print` shows what comes.",
+    ): "`data` takes a number with a decimal point, such as 1.0, but gets what `nearest` returns: does every path through it end with `return` and one such number? `print` shows what it returns.",
     (
         SlicesPastTheEnd,
-    ): "`[-35:36]` is empty: a slice doesn't go on from the end of a list to its beginning. Join two "
+    ): "`[-35:36]` is empty: a slice doesn't wrap around from the end of a list to its beginning. Join two "
     "parts: `[*msg.ranges[-35:], *msg.ranges[:36]]`.",
     (
         SlowAdder,
         ReadsNothingWhileAskingElsewhere,
-    ): "What stands before `.sum` is None: it was never set, or comes from a function without `return`.",
+    ): "The value before `.sum` is None: it was never set, or comes from a function without `return`.",
     (
         SlowAdder,
         ReceivesWithoutTheFuture,
@@ -266,6 +262,5 @@ def test_an_answer_that_may_have_been_taken_is_not(nodes):
 
 def test_what_keeps_the_last_message_is_still_none_before_the_first():
     assert find_fault(record(LooksBeforeTheFirstMessage)).hint == (
-        "No message has come on /lidar by then, so what keeps the last one is still None. Ask for that first, with "
-        "`is None`; before the first message, send zeros to a robot."
+        "No message has arrived on /lidar by then, so the variable for the latest one is still None. Test for that first, with `is None`; before the first message, send zeros to a robot."
     )
