@@ -17,6 +17,7 @@ from sim.world.machines import JointModel
 
 STATIONS, VISIT = 4, 2.2  # positions; s from pose to pose
 NEAR, FAR = (0.03, 0.07), (0.25, 0.6)  # rad from a limit: near for sure, and not near for sure
+AT_LIMIT, AT_MARGIN = (0.0, 0.0), (0.1, 0.1)  # rad: the limit itself, and where the margin of `limits` ends
 NAMES = ["shoulder_joint", "elbow_joint"]
 CRUISE = 0.8  # rad/s, in tasks
 BEGIN, LESSON, INTERRUPTION = 0.5, 4.5, 1.0  # s: first path; from path to path; until one is broken off
@@ -56,14 +57,20 @@ class Gripper(Node):
 
 
 def poses(seed: int) -> list[list[float]]:
-    """Return poses for the arm of a seed: each joint is near each of its limits once, and then away again."""
+    """Return poses for the arm of a seed: each joint is near each of its limits once, and then away again.
+
+    One of them is at a limit. Another, where the joint has time to come to rest, is where the margin ends.
+    """
     draw, joints = random.Random(f"poses {seed}"), arm_of(seed).machine.joints
     near = [(index, upper) for index in (0, 1) for upper in (False, True)]
     draw.shuffle(near)
+    margins = [NEAR, *draw.sample([NEAR, AT_LIMIT, AT_MARGIN], 3)]
     rows = []
-    for index, upper in near:
+    for (index, upper), margin in zip(near, margins, strict=True):
         row = [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]
-        row[index] = _place(draw, joints[index], upper, NEAR)
+        row[index] = _place(draw, joints[index], upper, margin)
+        if margin == AT_MARGIN:
+            rows[-1][index] = _place(draw, joints[index], upper, FAR)
         rows += [row, [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]]
     return rows[:-1]
 

@@ -20,6 +20,7 @@ PERIOD, SPEED = 0.05, 0.6  # s, rad/s
 START = 4  # periods in which a lift at rest pulls with full effort before it moves
 MOVING, HOLDING = 0.3 * EFFORT, 0.05 * EFFORT  # N m
 FREED = 0.05  # rad; a command this close to where it is stuck frees it
+NOISE, BACKLASH = 0.001, 0.005  # rad and rad/s, of the encoder; rad, a gap that is too small to move
 BEGIN, PAUSE = 1.0, 2.8  # s: until the first request, and between two
 
 
@@ -29,7 +30,7 @@ class Plan(NamedTuple):
     lower: float  # rad
     upper: float
     fan_first: bool  # in /joint_states
-    requests: list[float]  # rad; some beyond the limits, one NaN
+    requests: list[float]  # rad; two at the limits, some beyond them, one NaN
     jams: list[float]  # where the lift gets stuck, once each
 
 
@@ -43,6 +44,7 @@ def plan(seed: int) -> Plan:
         places.append(round(middle + ahead * draw.uniform(0.3, 0.6), 2))
     if draw.random() < 0.5:
         places = [round(2 * middle - place, 2) for place in places]
+    places[0], places[3] = (upper, lower) if places[0] > middle else (lower, upper)
     first = draw.choice((1, 2))  # not two in a row, because the second would then start from elsewhere
     jams = [(places[index - 1] + places[index]) / 2 for index in (first, first + draw.choice((1, 2)))]
     requests = list(places)
@@ -63,6 +65,7 @@ class Lift(Node):
         self.plan, self.jams = plan, list(plan.jams)
         self.position = self.target = self.velocity = self.effort = 0.0
         self.stuck, self.starting, self.turns = False, 0, 0.0
+        self.errors = random.Random("encoder")
         model = JointModel(plan.lower, plan.upper, 0.0, SPEED)
         self.description = self.create_publisher(String, "/robot_description", LATCHED)
         text = urdf("lift", [JOINT], [model], ["base_link", "platform", "top"])
@@ -85,7 +88,7 @@ class Lift(Node):
         gap = self.target - self.position
         ahead = math.copysign(1.0, gap)
         self.velocity, self.effort = 0.0, HOLDING
-        if abs(gap) > 1e-6:
+        if abs(gap) > BACKLASH:
             self.effort = ahead * EFFORT
             if self.starting:
                 self.starting -= 1
@@ -103,7 +106,8 @@ class Lift(Node):
 
     def _report(self) -> None:
         self.turns += 0.3
-        rows = [(JOINT, self.position, self.velocity, self.effort), (OTHER, self.turns, 6.0, EFFORT)]
+        position, velocity = (self.errors.gauss(value, NOISE) for value in (self.position, self.velocity))
+        rows = [(JOINT, position, velocity, self.effort), (OTHER, self.turns, 6.0, EFFORT)]
         if self.plan.fan_first:
             rows.reverse()
         names, *values = zip(*rows, strict=True)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from sim.world import World
 from sim.world.machines import ArmModel, JointModel
 
-NOISE = 0.001  # rad, rad/s; of the joint's encoder
+NOISE = 0.001  # rad, rad/s; of the encoders
 EDGE = 0.06
 """How far (m) the table's edge is from the arm's shoulder, on the side where the figure isn't."""
 
@@ -30,10 +30,13 @@ def joint_of(seed: int) -> World:
 
 @functools.lru_cache(maxsize=64)
 def arm_of(seed: int) -> World:
-    """Return the world arm with limits of its own, no two alike; its driver may name the elbow first."""
-    draw = random.Random(f"arm {seed}")
-    shoulder = JointModel(-_between(draw, 1.0, 1.4), _between(draw, 1.6, 2.0), 0.0, 1.5, 4.0, 0.5)
-    elbow = JointModel(-_between(draw, 2.0, 2.4), _between(draw, 0.7, 0.9), 0.0, 2.0, 6.0, 0.4)
+    """Return the world arm with limits of its own, no two alike, and noisy encoders.
+
+    Its driver may name the elbow first.
+    """
+    draw, noise = random.Random(f"arm {seed}"), (NOISE, NOISE)
+    shoulder = JointModel(-_between(draw, 1.0, 1.4), _between(draw, 1.6, 2.0), 0.0, 1.5, 4.0, 0.5, *noise)
+    elbow = JointModel(-_between(draw, 2.0, 2.4), _between(draw, 0.7, 0.9), 0.0, 2.0, 6.0, 0.4, *noise)
     model = ArmModel(shoulder, elbow, elbow_first=draw.random() < 0.7 or seed == 1)
     return replace(World.load("arm"), machine=model, name=f"arm_{seed}")
 

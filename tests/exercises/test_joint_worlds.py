@@ -54,9 +54,20 @@ def test_each_joint_gets_near_each_of_its_limits_once():
         near = []
         for pose in poses(seed):
             for name, joint, place in zip(NAMES, arm_of(seed).machine.joints, pose, strict=True):
-                near += [(name, "lower")] if place - joint.lower < 0.1 else []
-                near += [(name, "upper")] if joint.upper - place < 0.1 else []
+                near += [(name, "lower")] if place - joint.lower < 0.101 else []
+                near += [(name, "upper")] if joint.upper - place < 0.101 else []
         assert sorted(near) == [(name, end) for name in sorted(NAMES) for end in ("lower", "upper")]
+
+
+def test_a_joint_rests_at_a_limit_and_another_after_a_short_way_where_the_margin_ends():
+    for seed in SEEDS:
+        joints, rows, margins = arm_of(seed).machine.joints, poses(seed), []
+        for before, row in itertools.pairwise(rows):
+            for joint, start, place in zip(joints, before, row, strict=True):
+                margin = min(place - joint.lower, joint.upper - place)
+                margins.append(round(margin, 9))
+                assert margins[-1] != 0.1 or abs(place - start) < 0.6
+        assert margins.count(0.0) == margins.count(0.1) == 1
 
 
 def test_one_path_of_three_goes_beyond_a_limit_and_the_others_take_less_than_a_lesson():
@@ -82,5 +93,6 @@ def test_a_lift_is_wanted_at_good_and_bad_places_and_gets_stuck_between_good_one
         good = [position for position in made.requests if made.lower <= position <= made.upper]
         bad = [position for position in made.requests if not made.lower <= position <= made.upper]
         assert (len(good), len(bad), sum(map(math.isnan, bad))) == (5, 3, 1)
-        assert made.requests[0] == good[0]
+        assert made.requests[0] == good[0] in (made.lower, made.upper)
+        assert {min(good), max(good)} == {made.lower, made.upper}, "the limits themselves"
         assert len(made.jams) == 2 and all(min(good) < jam < max(good) for jam in made.jams)

@@ -14,7 +14,7 @@ from sim.world.machines.urdf import EFFORT
 
 COMMANDS, WANTED = "/joint_commands", "/wanted"
 SOON, REACTION, PEAK = 0.3, 1.2, 0.35  # s
-NEAR = 0.05  # rad
+NEAR, STANDS = 0.05, 0.01  # rad, rad/s
 
 careful = Exercise("careful", "A lift that gets stuck", seconds=23, companions=lift, seeds=(1, 2))
 requests = Stimuli(WANTED, answered_on=COMMANDS, within=SOON, what="good and bad requests")
@@ -39,6 +39,11 @@ def publishes_commands(run: Recording) -> None:
         lambda run, request: request.responses and abs(request.values()[0]) > 3.2,
     "A refusal isn't the end: return from the callback, and handle the next request as usual.":
         lambda run, request: _silent_since_a_refusal(run, request),
+    "A limit itself is within the limits: compare with <=, not with <.":
+        lambda run, request: all(
+            (other.value.data in _limits(run)) != bool(other.responses)
+            for other in requests(run, where=lambda msg: _is_within(run, msg))
+        ),
     "It is between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
         lambda run, request: _limits(run)._asdict(),
 })
@@ -89,8 +94,9 @@ def logs_refusals(run: Recording) -> None:
     "The lift isn't stuck at {sent:.2g}. Send the position that the message has for lift_joint: find its "
     "index in msg.name, and use that index for position, velocity and effort.":
         lambda run, jam, later: later and {"sent": later[0]},
-    "The lift is stuck when abs(effort) is as high as the description's limit and abs(velocity) is 0, for "
-    "half a second. Read both by the joint's name, store since when, and compare with now.": otherwise,
+    "The lift is stuck when abs(effort) is as high as the description's limit and abs(velocity) is below "
+    "0.01 rad/s, for half a second: a measured velocity is hardly ever exactly 0. Read both by the joint's "
+    "name, store since when, and compare with now.": otherwise,
 })
 def frees_what_is_stuck(run: Recording) -> None:
     """A lift that is stuck is commanded to stay where it is, within 1.2 s, and at no other time."""
@@ -148,7 +154,7 @@ def _states(run: Recording) -> list[tuple[Jam, bool]]:
     for row in from_course(run, "/joint_states"):
         index = list(row.message.name).index(JOINT)
         effort, velocity = row.message.effort[index], row.message.velocity[index]
-        pulling = abs(effort) >= EFFORT and abs(velocity) < 1e-6
+        pulling = abs(effort) >= EFFORT and abs(velocity) < STANDS
         found.append((Jam(row.stamp, row.message.position[index], effort), pulling))
     return found
 

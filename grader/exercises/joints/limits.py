@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks import Missed, hinting, otherwise, publishes, subscribes
 from grader.checks.joints import described_limits
 from grader.checks.no_data import no_data
 from grader.companions.joint_targets import gymnast
@@ -12,7 +12,7 @@ from grader.worlds.arms import arm_of
 from sim.evidence import Message, Recording, Seconds
 
 NAME, STRING = "/near_limit", "std_msgs/msg/String"
-NEAR, CLEAR = 0.1, 0.13  # rad: the margin in the task, and one that is not near for sure
+NEAR, CLEAR = 0.1, 0.13  # rad: the margin in the task, and one that no noise reaches from there
 SOON = 0.2  # s
 
 limits = Exercise("limits", "Near the limit", world=arm_of, seconds=18, companions=gymnast, seeds=(1, 2))
@@ -75,16 +75,20 @@ def names_those_near(run: Recording) -> list[Visit]:
     return visits
 
 
-@limits.check(5, after=names_those_near)
+@limits.check(5, after=names_those_near, hints={
+    "The encoders are noisy: a joint that rests at the margin or at a limit seems to leave and come back. Remove "
+    "it from the set of near ones only when it is more than 0.15 rad from both limits.":
+        lambda run, visit, count: count < _states_near(run, visit),
+    "Store which joints are already near, in a set of names. Publish when you add one, and remove it when it "
+    "is away again.": otherwise,
+})
 def once_for_each(run: Recording, visits: list[Visit]) -> None:
     """Each time a joint comes near, it is named once, and not again as long as it stays there."""
     for visit in visits:
         count = len(visit.names(run.messages(NAME), visit.end + SOON))
         if count > 1:
             expected = f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s"
-            hint = ("Store which joints are already near, in a set of names. Publish when you add one, and "
-                    "remove it when it is away again.")
-            raise Missed(expected, f"{count}", hint)
+            raise Missed(expected, f"{count}", about=(visit, count))
 
 
 def _visits(run: Recording) -> list[Visit]:
@@ -103,6 +107,15 @@ def _visits(run: Recording) -> list[Visit]:
     if len(found) < 2:
         raise no_data(run, "two joints near a limit", f"{len(found)}", run.graph.publishers("/joint_states"))
     return sorted(found, key=lambda visit: visit.begin)
+
+
+def _states_near(run: Recording, visit: Visit) -> int:
+    """How many joint states of a visit have the joint within the margin."""
+    found = 0
+    for row in Window(visit.begin, visit.end).rows(from_course(run, "/joint_states")):
+        places = dict(zip(row.message.name, row.message.position, strict=True))
+        found += visit.name in places and described_limits(run)[visit.name].margin(places[visit.name]) < NEAR
+    return found
 
 
 def _another_is_near(run: Recording, wrong: Message) -> bool:

@@ -8,8 +8,9 @@ from grader.checks import Missed, otherwise, publishes, series, subscribes
 from grader.checks.motion import yaw_at
 from grader.checks.no_data import no_data
 from grader.companions.blind_drivers import LateStarter
-from grader.exercise import Exercise
+from grader.exercise import Exercise, Scenario
 from grader.geometry.angles import least_turn, turn_between
+from sim import Network
 from sim.evidence import Recording, Seconds
 
 Headings = list[tuple[Seconds, float]]  # degrees
@@ -19,8 +20,12 @@ RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LE
 LEAVING = 3.0
 ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
 
-gyro = Exercise("gyro", "A gyro without drift", world="lab", seconds=28, companions=[LateStarter],
-                seeds=(5, 6))
+LOSSY = Network(loss=0.1, delay=0.02, jitter=0.004)  # s; too little for one message to overtake another
+
+gyro = Exercise("gyro", "A gyro without drift", scenarios=[
+    Scenario("lab", 28, 5, [LateStarter]),
+    Scenario("lab", 28, 6, [LateStarter], network=LOSSY),
+])
 
 
 @gyro.check(3, lasts=True)
@@ -56,18 +61,32 @@ def _at_rest(headings: Headings) -> Headings:
     return [(stamp, value) for stamp, value in headings if stamp >= RESTING]
 
 
+def _drift(headings: Headings) -> float:
+    """How fast the heading changes at the end, while the robot stands still (degrees/s)."""
+    (first, before), (last, after) = _at_rest(headings)[0], _at_rest(headings)[-1]
+    return (after - before) / (last - first)
+
+
 def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
     rates = series(run.during(0.0, 2.0), "/imu/data", "angular_velocity.z")
     bias = math.degrees(sum(rate for _, rate in rates) / len(rates)) if rates else 0.0
-    (first, before), (last, after) = _at_rest(headings)[0], _at_rest(headings)[-1]
-    drift = (after - before) / (last - first)
+    drift = _drift(headings)
     return bias and 50.0 < abs(drift / bias) < 200.0 and {"times": abs(drift / bias)}
+
+
+def _misses_steps(run: Recording, headings: Headings) -> Any:
+    """Whether a heading without drift is short by the share of the messages that were lost on the network."""
+    links = [one for one in run.crossings
+             if one.topic == "/imu/data" and one.listener not in run.course_nodes and one.sent]
+    lost = max((one.lost / one.sent for one in links), default=0.0)
+    is_short = abs(_ratio(run, headings) - (1.0 - lost)) < lost / 2
+    return lost and is_short and abs(_drift(headings)) < 0.1 and {"lost": lost}
 
 
 @gyro.check(4, after=sums_up, hints={
     "It stays 0 all the time: collect the first 200 rates, and integrate the ones after them.":
         lambda run, headings: _largest(headings) == 0.0,
-    "It stays near 0 all the time: add a step for each message, self.yaw += (rate - bias) * 0.01.":
+    "It stays near 0 all the time: add a step for each message, self.yaw += (rate - bias) * (now - before).":
         lambda run, headings: _largest(headings) < 2.0,
     "It is near 0 whenever the robot stands still: that is how fast it turns, not how far. Add up the steps.":
         lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0,
@@ -80,8 +99,8 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
         lambda run, headings: 0.01 < _ratio(run, headings) < 0.025,
     "That is about 57 times too far, which is 180 / pi: keep self.yaw in radians, and call math.degrees(...) "
     "only once, when you publish.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
-    "That is about {ratio:.0f} times too far. Each reading is a rate, in rad/s, and lasts for 0.01 s, "
-    "the time since the previous one: add rate * 0.01.":
+    "That is about {ratio:.0f} times too far. Each reading is a rate, in rad/s, and lasts for the seconds "
+    "since the previous one: add rate * (now - self.before).":
         lambda run, headings: (ratio := _ratio(run, headings)) > 2.5 and {"ratio": ratio},
     "The heading begins at {begin:.3g} s, but the robot sets off at {leaving:g} s: your mean of the rates "
     "includes part of its turn. Take the mean over the first 2 s only.": _begins_late,
@@ -91,7 +110,9 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
             abs(math.remainder(value, ROUNDED)) < 0.02 for _, value in _at_rest(headings)
         ) and {"step": ROUNDED},
     "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, so multiply it by "
-    "the time step as well: (rate - bias) * 0.01.": _drifts_by_the_bias,
+    "the time step as well: (rate - bias) * (now - self.before).": _drifts_by_the_bias,
+    "It falls short by as much as was lost: {lost:.0%} of the messages never arrived. After a lost message the "
+    "step is longer than 0.01 s, so use the difference of the two stamps, now - self.before.": _misses_steps,
     "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
     "angular_velocity.z over the first 2 s, while the robot stands still, and subtract it from every later "
     "reading.": otherwise,

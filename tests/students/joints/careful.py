@@ -109,6 +109,20 @@ class UpperLimitOnly(Careful):
         return abs(position) <= self.upper
 
 
+class LimitsAreBeyond(Careful):
+    """The limit itself can be gone to."""
+
+    def can_go_to(self, position):
+        return self.lower < position < self.upper
+
+
+class ComparesWithZero(Careful):
+    """The encoder measures 0.0 hardly ever."""
+
+    def pulls(self, effort, velocity):
+        return abs(effort) >= self.most and velocity == 0.0
+
+
 class CutsToTheLimits(Careful):
     def want(self, msg):
         if not self.can_go_to(msg.data):

@@ -15,7 +15,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 class Watcher(Node):
     """As one would write it; the wrong ones change one thing each."""
 
-    latched, margin_to_speak = LATCHED, 0.1
+    latched, margin_to_speak, margin_to_forget = LATCHED, 0.1, 0.15
 
     def __init__(self):
         super().__init__("watcher")
@@ -36,9 +36,10 @@ class Watcher(Node):
                 self.look_at(name, position)
 
     def look_at(self, name, position):
-        if self.margin(name, position) >= self.margin_to_speak:
+        margin = self.margin(name, position)
+        if margin > self.margin_to_forget:
             self.near.discard(name)
-        elif name not in self.near:
+        elif margin < self.margin_to_speak and name not in self.near:
             self.near.add(name)
             self.publisher.publish(String(data=name))
 
@@ -55,7 +56,8 @@ class WithADictionary(Watcher):
         for name, (lower, upper) in self.limits.items():
             if name not in positions:
                 continue
-            close = not lower + 0.1 < positions[name] < upper - 0.1
+            gap = 0.15 if name in self.near else 0.1
+            close = not lower + gap < positions[name] < upper - gap
             if close and name not in self.near:
                 self.publisher.publish(String(data=name))
             (self.near.add if close else self.near.discard)(name)
@@ -76,10 +78,9 @@ def main_without_a_class():
     def watch(msg):
         for name in set(msg.name) & set(limits):
             position = msg.position[list(msg.name).index(name)]
-            before, close[name] = (
-                close.get(name, False),
-                min(abs(end - position) for end in limits[name]) < 0.1,
-            )
+            before = close.get(name, False)
+            margin = min(position - limits[name][0], limits[name][1] - position)
+            close[name] = margin < (0.15 if before else 0.1)
             if close[name] and not before:
                 publisher.publish(String(data=name))
 
@@ -151,7 +152,21 @@ class Volatile(Watcher):
 
 
 class NearIsTwice(Watcher):
-    margin_to_speak = 0.4
+    margin_to_speak = margin_to_forget = 0.4
+
+
+class WithoutAGap(Watcher):
+    """Away where it is no longer near: at the margin the noise decides, in each message anew."""
+
+    margin_to_forget = 0.1
+
+
+class BeyondIsAway(Watcher):
+    """At the limit itself the noise brings every other position beyond it."""
+
+    def margin(self, name, position):
+        margin = super().margin(name, position)
+        return margin if margin >= 0.0 else 1.0
 
 
 class OtherTopic(Watcher):

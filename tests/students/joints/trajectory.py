@@ -194,6 +194,21 @@ class NoFeedback(Student):
         pass
 
 
+class WaitsForNoVelocity(Student):
+    """Begins when the arm is at rest: but a noisy encoder measures 0.0 hardly ever."""
+
+    waiting = None
+
+    def on_joints(self, msg):
+        super().on_joints(msg)
+        if self.waiting is not None and all(rate == 0.0 for rate in msg.velocity):
+            path, self.waiting = self.waiting, None
+            super().on_path(path)
+
+    def on_path(self, path):
+        self.waiting = path
+
+
 class DoesNotAskForAcceptance(Student):
     """Waits for the result of a goal that was rejected."""
 

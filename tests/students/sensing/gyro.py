@@ -16,11 +16,11 @@ from std_msgs.msg import Float64
 class Gyro(Node):
     """As one would write it."""
 
-    still, step, sign, topic = 200, 0.01, 1.0, "/heading"
+    still, step, sign, topic = 200, None, 1.0, "/heading"
 
     def __init__(self):
         super().__init__("gyro")
-        self.rates, self.bias, self.yaw = [], 0.0, 0.0
+        self.rates, self.bias, self.yaw, self.before = [], 0.0, 0.0, None
         self.publisher = self.create_publisher(Float64, self.topic, 10)
         self.create_subscription(Imu, "/imu/data", self.look, 10)
 
@@ -30,8 +30,13 @@ class Gyro(Node):
             self.rates.append(rate)
             self.bias = statistics.mean(self.rates)
         else:
-            self.yaw += self.sign * (rate - self.bias) * self.step
+            self.yaw += self.sign * (rate - self.bias) * (self.step or self.since(msg))
+        self.before = Time.from_msg(msg.header.stamp)
         self.publisher.publish(Float64(data=self.tell(self.yaw)))
+
+    def since(self, msg):
+        before = self.before or Time.from_msg(msg.header.stamp)
+        return (Time.from_msg(msg.header.stamp) - before).nanoseconds / 1e9
 
     def tell(self, yaw):
         return math.degrees(yaw)
@@ -63,18 +68,19 @@ class GyroWithTimer(Node):
 
     def __init__(self):
         super().__init__("imu_heading")
-        self.samples, self.heading = [], 0.0
+        self.samples, self.heading, self.last = [], 0.0, self.get_clock().now()
         self.drives_off = self.get_clock().now() + Duration(seconds=2)
         self.publisher = self.create_publisher(Float64, "/heading", 10)
         self.create_subscription(Imu, "/imu/data", self.integrate, 50)
         self.create_timer(0.1, self.publish)
 
     def integrate(self, msg):
-        rate = math.degrees(msg.angular_velocity.z)
+        rate, now = math.degrees(msg.angular_velocity.z), Time.from_msg(msg.header.stamp)
         if self.get_clock().now() < self.drives_off:
             self.samples.append(rate)
         else:
-            self.heading += (rate - np.mean(self.samples)) / 100
+            self.heading += (rate - np.mean(self.samples)) * (now - self.last).nanoseconds * 1e-9
+        self.last = now
 
     def publish(self):
         self.publisher.publish(Float64(data=float(self.heading)))
@@ -140,6 +146,12 @@ class NoTimeStep(Gyro):
 
 class StepOfTheScans(Gyro):
     step = 0.05
+
+
+class StepByHeart(Gyro):
+    """As if each of the 100 messages a second arrived."""
+
+    step = 0.01
 
 
 class Radians(Gyro):
