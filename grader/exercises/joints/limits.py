@@ -76,8 +76,8 @@ def names_those_near(run: Recording) -> list[Visit]:
 
 
 @limits.check(5, after=names_those_near, hints={
-    "The encoders are noisy: a joint that rests at the margin or at a limit seems to leave and come back. Remove "
-    "it from the set of near ones only when it is more than 0.15 rad from both limits.":
+    "The encoders are noisy: a joint that rests at the margin or at a limit seems to leave and come back. "
+    "Remove it from the set of near ones only when it is more than 0.15 rad from both limits.":
         lambda run, visit, count: count < _states_near(run, visit),
     "Store which joints are already near, in a set of names. Publish when you add one, and remove it when it "
     "is away again.": otherwise,

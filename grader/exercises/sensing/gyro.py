@@ -111,8 +111,9 @@ def _misses_steps(run: Recording, headings: Headings) -> Any:
         ) and {"step": ROUNDED},
     "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, so multiply it by "
     "the time step as well: (rate - bias) * (now - self.before).": _drifts_by_the_bias,
-    "It falls short by as much as was lost: {lost:.0%} of the messages never arrived. After a lost message the "
-    "step is longer than 0.01 s, so use the difference of the two stamps, now - self.before.": _misses_steps,
+    "It falls short by as much as was lost: {lost:.0%} of the messages never arrived. After a lost message "
+    "the step is longer than 0.01 s, so use the difference of the two stamps, now - self.before.":
+        _misses_steps,
     "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
     "angular_velocity.z over the first 2 s, while the robot stands still, and subtract it from every later "
     "reading.": otherwise,
