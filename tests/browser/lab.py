@@ -1,4 +1,5 @@
 """JupyterLab as students see it: a real server with their configuration, driven in Chromium."""
+
 import json
 import os
 import shutil
@@ -34,6 +35,10 @@ KERNEL_READY = """async () => {
 OPEN = """async path => {
     await window.jupyterapp.restored;
     await window.jupyterapp.commands.execute('docmanager:open', {path});
+}"""
+# Without its result: some give a widget, which has too many parts to be sent here.
+COMMAND = """async ([name, given]) => {
+    await window.jupyterapp.commands.execute(name, given);
 }"""
 LOADED_AGAIN = "performance.getEntriesByType('navigation')[0].type === 'reload'"
 # Without a question whether to save: a notebook that was run is changed.
@@ -194,7 +199,7 @@ class Lab:
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
-        self.page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+        self.command("notebook:run-all-cells")
         self.page.wait_for_function(ALL_CELLS_DONE)
         self.page.wait_for_function(ALL_OUTPUTS_DRAWN)
 
@@ -233,9 +238,9 @@ class Lab:
         self.page.evaluate("window.notebook().context.save()")
         self.page.wait_for_function("() => !window.notebook().context.model.dirty")
 
-    def command(self, name: str) -> None:
-        """Do one of JupyterLab's commands, such as `docmanager:save`."""
-        self.page.evaluate("name => window.jupyterapp.commands.execute(name)", name)
+    def command(self, name: str, **arguments: str) -> None:
+        """Execute one of JupyterLab's commands, such as `docmanager:save`, and wait until it is done."""
+        self.page.evaluate(COMMAND, [name, arguments])
 
     @contextmanager
     def narrow_and_dark(self) -> Iterator[None]:
@@ -256,9 +261,7 @@ class Lab:
 
     def _use_theme(self, name: str) -> None:
         before = self.page.evaluate(BACKGROUND)
-        self.page.evaluate(
-            "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
-        )
+        self.command("apputils:change-theme", theme=name)
         # the style sheet comes after the name
         self.page.wait_for_function(f"before => {BACKGROUND} !== before", arg=before)
 

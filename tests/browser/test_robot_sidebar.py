@@ -88,8 +88,7 @@ def test_it_is_dark_in_a_dark_theme(playing):
 
 def test_a_document_that_is_opened_does_not_cover_it(playing):
     live(playing).canvas.click()
-    glossary = "{path: 'course/glossary.md', factory: 'Markdown Preview'}"
-    playing.page.evaluate(f"window.jupyterapp.commands.execute('docmanager:open', {glossary})")
+    playing.command("docmanager:open", path="course/glossary.md", factory="Markdown Preview")
     playing.page.locator(".jp-MarkdownViewer").wait_for()
     assert live(playing).canvas.is_visible()
     box, document = sidebar(playing).bounding_box(), playing.page.locator(".jp-MarkdownViewer").bounding_box()
