@@ -21,7 +21,9 @@ def exercises() -> dict[str, Exercise]:
     for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         for item in vars(importlib.import_module(info.name)).values():
             if isinstance(item, Exercise) and found.setdefault(item.name, item) is not item:
-                raise ValueError(f"two exercises are called {item.name!r}: names are unique in the course")
+                raise ValueError(
+                    f"two exercises are called {item.name!r}: names must be unique in the course"
+                )
     return dict(sorted(found.items()))
 
 

@@ -188,7 +188,7 @@ class Exercise:
     def _score(self, source: ProgramSource, secret: str, found: Any, order: str | None) -> Score:
         """What the programs earn, or those of the package that was found."""
         if isinstance(found, Fault):
-            reason = "Not judged: there is nothing to run."
+            reason = "Not graded: there is nothing to run."
             verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
             return Score(self.name, verdicts, title=self.title)
         try:

@@ -14,11 +14,13 @@ from sim.notebook import find_outdated
 def refusal(nodes: Sequence[Any]) -> Fault | None:
     """Why the first invalid argument can't be run; None if all are valid."""
     if not nodes:
-        return unusable_argument("nothing", "Put the name of your class between the brackets: grade(MyNode).")
+        return unusable_argument(
+            "nothing", "Put the name of your class between the parentheses: grade(MyNode)."
+        )
     try:
         return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
     except Exception as error:  # a student's metaclass may raise in any operation
-        saw = f"something that raises {type(error).__name__} when it is looked at"
+        saw = f"something that raises {type(error).__name__} when it is inspected"
         return unusable_argument(saw, "Give an ordinary class that is based on Node.")
 
 
@@ -30,7 +32,7 @@ def outdated_code(nodes: Sequence[Any]) -> Fault | None:
     return Fault(
         "the code that your notebook shows",
         found.saw,
-        f"{found.hint} Nothing was judged: it would have been an older version.",
+        f"{found.hint} Nothing was graded: it would have been an older version.",
         before_start=True,
         sentence="Your last version did not run.",
     )
@@ -50,7 +52,7 @@ def _refuse(node: Any) -> Fault | None:
         )
     if _is_node_class(type(target)):
         name = type(target).__name__
-        hint = f"Leave out the brackets after the name: {name}, not {name}()."
+        hint = f"Leave out the parentheses after the name: {name}, not {name}()."
         return unusable_argument(f"an object of {name}", hint)
     if not callable(target):
         hint = "Give the class itself, by its name and without quotes."

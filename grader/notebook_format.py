@@ -36,7 +36,9 @@ def normalized(text: str, name: str) -> str:
         notebook = json.loads(text)
     except json.JSONDecodeError as error:
         problem = f"{name} is not a notebook: expected JSON, saw {error}."
-        raise InvalidNotebook(f"{problem} Was it cut off, or does it hold merge marks?") from None
+        raise InvalidNotebook(
+            f"{problem} Is it incomplete, or does it contain merge conflict markers?"
+        ) from None
     version = notebook.get("nbformat") if isinstance(notebook, dict) else None
     if version != 4:
         problem = f"{name}: expected notebook format 4, saw {version}."

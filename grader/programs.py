@@ -97,7 +97,7 @@ class RemotePrograms:
         if answer is None:
             return None
         if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
-            raise RemoteLost("The process with the nodes did not say whether they can be run.", lives=True)
+            raise RemoteLost("The process with the nodes did not report whether they can be run.", lives=True)
         return unusable_argument(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:

@@ -39,7 +39,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         tell(recording)
         return recording
     except CannotBuildHere:
-        print("Here nothing can be built: when a class is marked, the test cell below does it.")
+        print("Nothing can be built here: when a class is marked, the test cell below does it.")
         return Recording()
     finally:
         source.leave()

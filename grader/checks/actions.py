@@ -193,7 +193,7 @@ def _goals(recording: Recording, action: str, where: Picks) -> list[Goal]:
     goals = [goal for goal in recording.goals_of(action) if where(goal)]
     if not goals:
         serves_action(recording, action)
-        saw = f"{len(recording.goals_of(action))}, and none of them is one"
+        saw = f"{len(recording.goals_of(action))}, but none like that"
         raise no_data(
             recording, f"goals for {action} that fit", saw, recording.graph.ends("action client", action)
         )
@@ -208,7 +208,7 @@ def _named(goal: Goal) -> str:
 def state(goal: Goal) -> str:
     """How far a goal came, in words: "succeeded at 4 s"."""
     if not goal.status:
-        return "no decision on it" if goal.server else "no server took the goal"
+        return "no decision on it" if goal.server else "no server received the goal"
     if goal.over:
         return f"{goal.status} at {goal.at(goal.status):.3g} s"
     return f"still {goal.status} at the end"

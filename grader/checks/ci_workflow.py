@@ -26,10 +26,10 @@ def read_workflow(path: str, data: bytes) -> dict[str, Any]:
         found = yaml.safe_load(data.decode("utf-8-sig"))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         line = getattr(getattr(error, "problem_mark", None), "line", None)
-        saw = "a text that is no YAML" + ("" if line is None else f": line {line + 1}")
-        raise Missed(expected, saw, "Indent with spaces, two for each level, and never with tabs.") from None
+        saw = "text that isn't valid YAML" + ("" if line is None else f": line {line + 1}")
+        raise Missed(expected, saw, "Indent with spaces, two for each level, never with tabs.") from None
     if not isinstance(found, dict):
-        raise Missed(expected, "no keys", "It has the keys name, on and jobs.")
+        raise Missed(expected, "no keys", "It needs the keys name, on and jobs.")
     return found
 
 
@@ -37,12 +37,12 @@ def require_tests(workflow: Mapping[Any, Any]) -> None:
     """A job of the workflow builds and tests, and fails if a test fails. Raises Missed."""
     triggers = workflow.get("on", workflow.get(True))  # YAML 1.1 reads the word `on` as true
     if not {"push", "pull_request"} & set(_names(triggers)):
-        hint = "`on: [push]` starts it with each push."
+        hint = "`on: [push]` starts it on every push."
         raise Missed("a workflow that starts on push or pull_request", str(triggers)[:60], hint)
     jobs = workflow.get("jobs")
     found = [job for job in jobs.values() if isinstance(job, dict)] if isinstance(jobs, dict) else []
     if not found:
-        raise Missed("a job below `jobs:`", "none", "A job has a name, runs-on, a container and steps.")
+        raise Missed("a job below `jobs:`", "none", "A job needs a name, runs-on, a container and steps.")
     job = max(found, key=lambda job: sum(bool(pattern.search(_commands(job))) for pattern in PATTERNS))
     _has_ros(job)
     _runs_in_order(_commands(job))
@@ -70,7 +70,7 @@ def _has_ros(job: Mapping[str, Any]) -> None:
         raise Missed(
             "a step that uses actions/checkout",
             ", ".join(uses) or "none",
-            "Without it, none of your files is there.",
+            "Add it: without it, none of your files are there.",
         )
     container = job.get("container")
     image = str(container.get("image") if isinstance(container, dict) else container or "")
@@ -78,7 +78,7 @@ def _has_ros(job: Mapping[str, Any]) -> None:
         hint = "`container: ros:jazzy` runs the steps where ROS is installed."
         raise Missed("a container with ROS 2 Jazzy", image or "none", hint)
     if not SETUP.search(_commands(job)):
-        hint = "Each step is a new terminal: source /opt/ros/jazzy/setup.bash, then colcon."
+        hint = "Each step runs in a new shell: source /opt/ros/jazzy/setup.bash, then call colcon."
         raise Missed("source /opt/ros/jazzy/setup.bash before colcon", "no such line", hint)
 
 
@@ -86,7 +86,7 @@ def _runs_in_order(commands: str) -> None:
     places = [pattern.search(commands) for pattern in PATTERNS]
     for command, place in zip(COMMANDS, places, strict=True):
         if place is None:
-            hint = "colcon test ends with 0 even if a test fails; colcon test-result does not." * (
+            hint = "colcon test exits with 0 even if a test fails; colcon test-result doesn't." * (
                 command == COMMANDS[-1]
             )
             credit = 0.5 if command == COMMANDS[-1] else 0.0
@@ -99,7 +99,7 @@ def _runs_in_order(commands: str) -> None:
         raise Missed(
             f"{', '.join(COMMANDS)}, in this order",
             ", ".join(found),
-            "First build, then test, then ask for the result.",
+            "Build first, then test, then check the result.",
             credit=0.5,
         )
 
@@ -109,5 +109,5 @@ def _fails_with_a_test(job: Mapping[str, Any]) -> None:
     if any(step.get("continue-on-error") not in (None, False) for step in steps) or IGNORED.search(
         _commands(job)
     ):
-        hint = "A workflow is red if one of its commands fails: leave out what hides that."
+        hint = "A workflow fails if one of its commands fails: remove whatever hides that."
         raise Missed("a workflow that fails if a test fails", "a failure that is ignored", hint, credit=0.5)

@@ -141,10 +141,12 @@ def _written(text: str) -> Iterator[tuple[str, list[str]]]:
         elif depth:
             words.append(value)
         else:
-            hint = "There a command should begin, such as project(...)."
+            hint = "A command such as project(...) should begin there."
             raise _unread(f"{value[:40]} in line {line}", hint)
     if name:
-        raise _unread(f"{name[:40]} without {')' if depth else '(...)'}", "A command ends with its bracket.")
+        raise _unread(
+            f"{name[:40]} without {')' if depth else '(...)'}", "Close the command with its parenthesis."
+        )
 
 
 def _tokens(text: str) -> Iterator[tuple[str, str, int]]:
@@ -154,7 +156,10 @@ def _tokens(text: str) -> Iterator[tuple[str, str, int]]:
         found = _TOKEN.match(text, at)
         if found is None:
             line = text.count("\n", 0, at) + 1
-            raise _unread(f"{text[at : at + 20]!r} in line {line}", "What begins there has no end.")
+            raise _unread(
+                f"{text[at : at + 20]!r} in line {line}",
+                "Something begins there and never ends: close the quote or bracket.",
+            )
         if found.lastgroup != "left":
             yield found.lastgroup, found[found.lastgroup], text.count("\n", 0, at) + 1
         at = found.end()

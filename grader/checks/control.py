@@ -17,22 +17,22 @@ EFFORT = "/cart_effort"
 FALLEN = 0.5  # rad: from there on no cart catches it
 Curve = list[tuple[Seconds, float]]
 WRONG_WAY = (
-    "From the first moment on the cart is pushed the wrong way. A positive angle leans to the left: then "
-    "the cart has to get under it, to the left, which is a negative effort."
+    "The cart is pushed the wrong way from the start. A positive angle means that the pole leans to the "
+    "left: the cart has to get under it, to the left, which takes a negative effort."
 )
 TOO_WEAK = (
-    "It went down on the side where it leant from the first: the cart didn't get under it. Is the gain on "
-    "the angle large enough, and has the one on the rate the same sign?"
+    "The pole fell to the side it leaned to from the start: the cart didn't get under it. Is the gain on the "
+    "angle large enough, and does the one on the rate have the same sign?"
 )
 SWINGS = (
-    "It swung higher and higher. P alone does: D brakes, a gain on the rate at which the pole turns, and of "
-    "the same sign. If it is there, make it larger."
+    "It swung more and more widely, as it does with P alone. Add D, a gain on the pole's rate, with the same "
+    "sign. If you have it already, make it larger."
 )
 PLACE_TURNED = (
-    "Its place counts with the wrong sign, which drives it away: to come back from the right it first has to "
-    "push to the right, so that the pole leans to the left. Add gain * x for the place, with a plus."
+    "The position has the wrong sign, which drives the cart away: to come back from the right, it first has "
+    "to push to the right, so that the pole leans to the left. Add gain * x for the position, with a plus."
 )
-NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state comes."
+NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state arrives."
 
 
 def lean(run: Recording) -> Curve:
@@ -62,7 +62,7 @@ def stands(run: Recording) -> None:
     share = fell / run.seconds
     raise Missed(
         f"a pole that stands for {run.seconds:g} s",
-        f"it fell: at {fell:.3g} s it leant by more than {FALLEN:g} rad",
+        f"it fell: at {fell:.3g} s it leaned by more than {FALLEN:g} rad",
         _why_it_fell(run, fell),
         credit=0.5 * share if share >= 0.5 else 0.0,
     )
@@ -72,9 +72,7 @@ def still_stands(run: Recording) -> None:
     """Raises Missed where the pole fell: what is asked of a cart that carries it can't be judged then."""
     fell = fell_at(run)
     if fell is not None:
-        raise Missed(
-            "a pole that stands meanwhile", f"it fell at {fell:.3g} s", "First the pole has to stand."
-        )
+        raise Missed("a pole that stands meanwhile", f"it fell at {fell:.3g} s", "Keep the pole up first.")
 
 
 def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float) -> Seconds:
@@ -89,7 +87,7 @@ def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float
         raise Missed(
             f"the cart within {tolerance * 100:g} cm of {target:.2f} m, from {seconds:g} s after "
             f"{run.begin:.3g} s on",
-            f"it is further away until {away[-1]:.3g} s" if end > away[-1] else f"{x:.2f} m at {end:.3g} s",
+            f"it is farther away until {away[-1]:.3g} s" if end > away[-1] else f"{x:.2f} m at {end:.3g} s",
             about=(target,),
         )
     return took
@@ -167,12 +165,13 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
     slow = max(gaps, default=0.0)
     if slow > 0.045:
         return (
-            f"The efforts came too seldom: up to {slow:.2g} s passed between two of them. The pole falls "
-            "in the meantime: push at each joint state, and let nothing hold the loop up."
+            f"The efforts were too rare: up to {slow:.2g} s passed between two of them, and the pole falls "
+            "in the meantime. Publish one for each joint state, and let nothing block the loop."
         )
     end = run.world.machine.track_length / 2
     if any(abs(x) > end - 0.01 for stamp, x in places(run) if stamp <= fell):
         rolled = "The cart rolled to the end of the track, which stopped it."
-        return f"{rolled} {PLACE_TURNED if _place_is_turned(run, fell) else 'Its place has to count, too.'}"
+        depends = "The effort has to depend on its position, too."
+        return f"{rolled} {PLACE_TURNED if _place_is_turned(run, fell) else depends}"
     swings = {angle > 0 for stamp, angle in lean(run) if stamp < fell and abs(angle) > 0.02}
     return TOO_WEAK if len(swings) == 1 else SWINGS

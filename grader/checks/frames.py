@@ -12,8 +12,8 @@ UNIT = 0.01  # how far a quaternion's squared length may be from 1: tf2 throws o
 NEAR = 0.02  # m, rad
 PART = 0.2  # of the points, where one thing is wrong and the rest right
 FULL_TURN = (
-    "A quaternion is not an angle: for a turn by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
-    "quaternion_from_euler(0, 0, yaw) gives all four numbers."
+    "A quaternion is not an angle: for a rotation by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
+    "quaternion_from_euler(0, 0, yaw) returns all four numbers."
 )
 
 
@@ -65,7 +65,7 @@ def between(
     right = [one for one in sent if one.frames == f"{parent} → {child}"]
     if right:
         return right
-    hint = "header.frame_id is the parent, child_frame_id the child. Each letter counts."
+    hint = "header.frame_id is the parent, child_frame_id the child. Every letter counts."
     if any(one.frames == f"{child} → {parent}" for one in sent):
         hint = "Parent and child are swapped: header.frame_id is the parent, child_frame_id the child."
     saw = ", ".join(dict.fromkeys(one.frames for one in sent)) or "no transform"

@@ -21,7 +21,7 @@ END, MARK = "---", "\ufeff"  # the line that ends a part; what some editors put 
 MOST, LONGEST = 10_000, 200  # bytes of a definition, characters of a line
 # The same as rosidl's own pattern, which takes forever to refuse a long name.
 CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
-DASHES = "A line with three dashes, and nothing else, not even a space, stands between"
+DASHES = "A line with three dashes, and nothing else, not even a space, separates"
 TYPES = "Types are bool, string, float64, uint8 and so on, a message of this package, or PACKAGE/Name."
 
 
@@ -55,7 +55,7 @@ def read_definition(path: str, data: bytes, package: str) -> Mapping[str, Interf
         for begin, end in zip([0, *(end + 1 for end in ends)], [*ends, len(lines)], strict=True):
             parts.append(_part(lines, range(begin, end), package))
         if len(parts) != len(names):
-            hint = f"{DASHES} {' and '.join(names)}." if len(names) > 1 else "A message has one part only."
+            hint = f"{DASHES} {' and '.join(names)}." if len(names) > 1 else "A message has only one part."
             raise _Unread(f"{len(ends)} lines with ---, and {len(names) - 1} should be there", hint)
     except _Unread as reason:
         raise Missed(expected, *reason.args) from None
@@ -73,9 +73,9 @@ def _lines(data: bytes) -> list[str]:
     try:
         text = data.decode()
     except UnicodeDecodeError:
-        raise _Unread("bytes that are no text", "Save it as UTF-8.") from None
+        raise _Unread("bytes that aren't text", "Save it as UTF-8.") from None
     if text.startswith(MARK):
-        hint = "rosidl takes it for a letter of the first word. Save it as UTF-8 without BOM."
+        hint = "rosidl reads it as a letter of the first word. Save the file as UTF-8 without BOM."
         raise _Unread("a byte order mark at its beginning", hint)
     lines = [line.replace("\t", " ") for line in text.splitlines()]
     return [line if line.startswith(END) else line.partition("#")[0].rstrip() for line in lines]
@@ -86,7 +86,7 @@ def _part(lines: list[str], numbers: range, package: str) -> InterfacePart:
     names = [item.name for item in read]
     for name in names:
         if names.count(name) > 1:
-            hint = "Within a part each name stands once: leave one of them out."
+            hint = "Within a part each name may appear only once: remove one of them."
             raise _Unread(f"two lines with the name {name}", hint)
     own = f"{package}/"
     return InterfacePart(
@@ -113,9 +113,9 @@ def _form(line: str) -> str:
     kind, _, rest = line.partition(" ")
     name, *value = re.split(r"[\s=]", rest.strip(), maxsplit=1)
     if len(line) > LONGEST:
-        return f"A line has at most {LONGEST} characters before its comment."
+        return f"Keep a line to at most {LONGEST} characters before its comment."
     if not line.isprintable():
-        return "The ? is a letter that doesn't show, such as a page's own spaces: type the line by hand."
+        return "The ? is an invisible character, such as a web page's special spaces: type the line by hand."
     if line.startswith(" "):
         return "A line begins with its type: delete the spaces before it."
     if line.startswith(END):
@@ -123,13 +123,19 @@ def _form(line: str) -> str:
     if not name:
         return "Each line has a type, a space, and a name."
     if "=" in rest and is_valid_field_name(name):
-        return f"With = it is a constant, whose name has capital letters. A field reads `{kind} {name}`."
+        return (
+            f"With = it is a constant, whose name is in capital letters. A field is written `{kind} {name}`."
+        )
     if "=" in rest and not CONSTANT.fullmatch(name):
-        return "The name of a constant has capital letters, digits and single underscores, such as TOO_HIGH."
+        return (
+            "Write a constant's name with capital letters, digits and single underscores, such as TOO_HIGH."
+        )
     if "=" not in rest and value and CONSTANT.fullmatch(name):
-        return f"A constant has a =, such as `{kind} {name}=1`."
+        return f"A constant needs an =, such as `{kind} {name}=1`."
     if "=" not in rest and not is_valid_field_name(name):
-        return "The name of a field has small letters, digits and single underscores, such as top_speed."
+        return (
+            "Write a field's name with lower-case letters, digits and single underscores, such as top_speed."
+        )
     return ""
 
 
@@ -140,5 +146,5 @@ def _reason(line: str, error: Exception) -> str:
     if long:
         return f"In a definition the type has one slash: {long[1]}/{long[2]}."
     if isinstance(error, InvalidValue):
-        return f"What stands behind the name is its value, and rosidl says: {error}."
-    return f"`{kind}` is no type. {TYPES}"
+        return f"The text after the name is its value, and rosidl says: {error}."
+    return f"`{kind}` is not a type. {TYPES}"

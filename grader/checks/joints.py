@@ -108,7 +108,7 @@ def draws(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.0
         x, y = wanted[int(np.argmax(gaps))]
         raise Missed(
             f"all of the figure within {tolerance * 100:g} cm of the tip's path",
-            f"{drawn:.0%} of it; the tip never came nearer than {gaps.max():.2f} m to ({x:.2f}, {y:.2f}) m",
+            f"{drawn:.0%} of it; the tip never came closer than {gaps.max():.2f} m to ({x:.2f}, {y:.2f}) m",
             hint,
             credit=drawn if drawn > 0.5 else 0.0,
             picture="path",

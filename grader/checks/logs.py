@@ -44,7 +44,7 @@ def logs(
     if len(found) < at_least:
         many = "a log line" if at_least == 1 else f"{at_least} log lines"
         expected = f"{many}{f' at level {level}' if level else ''} like “{example}”"
-        guess = "Compare the two lines. And does anything call the method that should log it?"
+        guess = "Compare the two lines. And is the method that should log it ever called?"
         saw, hint = _nearest(recording, pattern, example, texts, found, level)
         raise Missed(expected, saw, hint, guess=guess if recording.logs else "")
     return found
@@ -64,7 +64,7 @@ def _nearest(
         return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) instead of print(...)."
     unfilled = next((line.text for line in recording.logs if re.search(r"\{\w[^}]*\}", line.text)), "")
     if unfilled:
-        return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what is in braces.'
+        return f"“{unfilled}”", 'Put an f before the quotes: f"..." inserts what is in braces.'
     similar = _most_similar(recording, example)
     if similar:
         return f"“{similar}”", describe_text_difference(similar, example)
@@ -95,9 +95,12 @@ def come_every(
             return lines
         hint = f"What changes at {stamps[0] if late else stamps[-1]:.3g} s?"
     elif recording.graph.timers:
-        hint = "One timer sets the pace, its period in seconds. Log one line each time its method is called."
+        hint = (
+            "Let one timer set the pace, with its period in seconds. Log one line each time its method is "
+            "called."
+        )
     else:
-        hint = "The node has no timer: create_timer(period, method) has a method called again and again."
+        hint = "The node has no timer: create_timer(period, method) calls a method again and again."
     if len(stamps) > FLOOD * (worked_until(recording) - recording.begin) / period:
         credit = 0.0
     expected = f"a line every {period:g} s, from start to end"
@@ -108,8 +111,8 @@ def come_every(
 def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[LogMatch]) -> None:
     if all(timer.node in recording.course_nodes for timer in recording.graph.timers):
         hint = (
-            "A node receives and answers nothing while a loop of its own sleeps: "
-            f"create_timer({period:g}, method) has a method called again and again, and leaves the node free."
+            "While a loop in the node sleeps, the node receives and answers nothing: "
+            f"create_timer({period:g}, method) calls a method again and again, and leaves the node free."
         )
         saw = f"a line every {period:g} s, but no timer"
         raise Missed("a timer that sets the pace", saw, hint, credit=credit, measured=lines)

@@ -16,7 +16,7 @@ Point = tuple[float, float]
 _SHARES = (0.13, 0.37, 0.71, 1.0)  # of a time to look back; uneven, because a circle returns to its start
 
 
-SLOW_DOWN = "Slow down or turn away earlier: /scan says how far it is to the next wall."
+SLOW_DOWN = "Slow down or turn away earlier: /scan gives the distance to the nearest wall."
 
 
 def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:
@@ -105,7 +105,7 @@ def passes(recording: Recording, points: Sequence[Point], *, tolerance: float = 
         x, y = points[reached]
         raise Missed(
             f"the robot within {tolerance:g} m of {len(points)} points, one after the other",
-            f"{reached} of them; it never came to ({x:g}, {y:g}) m after that",
+            f"{reached} of them; it never reached ({x:g}, {y:g}) m after that",
             _movement_hint(recording),
             credit=reached / len(points),
             picture="path",

@@ -22,7 +22,7 @@ def goals_from_course(run: Recording) -> list[Goal]:
     """Return the goals that the course's client sent. Raises Missed without one."""
     goals = [goal for goal in run.goals_of(ACTION) if goal.requested_by_course]
     if not goals:
-        raise Missed("a goal that is taken", "no server was there when the client looked for one")
+        raise Missed("a goal that a server receives", "no server was there when the client looked for one")
     return goals
 
 
@@ -49,7 +49,7 @@ def _wrong_pose(run: Recording, goal: Goal) -> Fault | None:
         place, true = row.message.current_pose.pose.position, run.pose_at(row.stamp)
         if not math.dist((place.x, place.y), (true.x, true.y)) <= 0.2:  # so that NaN fails
             expected = f"current_pose at ({true.x:.2f}, {true.y:.2f}) m, at {row.stamp:.3g} s"
-            hint = "current_pose is where the robot is in the map, not by its odometry: self.pose."
+            hint = "current_pose is where the robot is in the map, not in its odometry: self.pose."
             return expected, f"({place.x:.2f}, {place.y:.2f}) m", hint
     return None
 
@@ -82,5 +82,7 @@ def _no_estimate(goal: Goal) -> Fault | None:
     times = [in_seconds(row.message.estimated_time_remaining) for row in goal.feedback]
     if all(seconds > 0 for seconds in times[: len(times) // 2]):
         return None
-    hint = "It is the distance by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
+    hint = (
+        "It is the distance divided by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
+    )
     return "an estimated_time_remaining above 0 on the way", "0 s or less", hint

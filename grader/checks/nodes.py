@@ -22,7 +22,7 @@ def named(recording: Recording, name: str) -> None:
     if name in recording.graph.nodes:
         return
     near = closest_ros_name(name, recording.graph.nodes)
-    default = "The name of a node is set by super().__init__('name')."
+    default = "Set the node's name with super().__init__('name')."
     hint = describe_difference(near, name) if near else default
     typo = ("__node", name.rpartition("/")[2]) if near else None
     raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, typo=typo)

@@ -35,8 +35,8 @@ def names_what_it_imports(run: PackageRun) -> None:
         raise Missed(
             f"<depend> or <exec_depend> for each of {', '.join(wanted)} in package.xml",
             f"none for {', '.join(left_out)}",
-            "Anyone who installs your package gets what package.xml names. Here all of ROS is there, so it "
-            f"runs all the same. Add <depend>{left_out[0]}</depend>.",
+            "Anyone who installs your package gets only what package.xml names. Here all of ROS is "
+            f"installed, so it runs anyway. Add <depend>{left_out[0]}</depend>.",
         )
 
 

@@ -53,7 +53,7 @@ def near_something(
     if len(lost) > max(FEW, PART * len(points)):
         x, y = lost[0]
         saw = f"{len(lost)} of {len(points)} points at {stamp:.3g} s near nothing, such as {x:.2f}, {y:.2f}"
-        hint = "Publish the points that the lidar has seen there, and no others."
+        hint = "Publish only points that the lidar has seen there."
         raise Missed(f"points on {topic} of what is there", saw, hint)
 
 

@@ -56,13 +56,13 @@ def _near_a_person(recording: Recording) -> Question | None:
     """The first touch, or else the moment at which the robot drove nearest to a person."""
     touch = next((contact.stamp for contact in recording.contacts if contact.what == "person"), None)
     if touch is not None:
-        text = "which program should have let it stand before, and what did that one know?"
+        text = "which program should have kept it standing still, and what did that program know?"
         return Question(touch, touch, f"At {touch:.1f} s it touched a person: {text}")
     near = nearest_person(recording, DRIVES)
     if near is None or near.away > NEAR:
         return None
     saw = f"At {near.stamp:.1f} s it drove at {near.speed:.2f} m/s, {near.away:.1f} m from a person"
-    return Question(near.stamp, near.stamp, f"{saw}: what did it know of this person?")
+    return Question(near.stamp, near.stamp, f"{saw}: what did it know about this person?")
 
 
 class _QuestionPause(NamedTuple):
@@ -121,7 +121,7 @@ def _stood(recording: Recording, pauses: Iterable[_QuestionPause], least: Second
     begin, end, job, aboard = longest
     load = f"with order {job.id} aboard" if aboard else f"while order {job.id} waited"
     saw = f"From {begin:.1f} to {end:.1f} s it stood {load}, {_place(recording, begin)}"
-    return Question(begin, end, f"{saw}: for what?")
+    return Question(begin, end, f"{saw}: what was it waiting for?")
 
 
 def _place(recording: Recording, stamp: Seconds) -> str:
@@ -136,7 +136,7 @@ def _given_up(done: Shift) -> Question | None:
     """The first order that expired, or else the first one that was canceled when it was aboard."""
     for job in done.jobs:
         if job.status == "expired" and job.over is not None:
-            why = "it was never fetched: which rule left it, and was that right?"
+            why = "it was never fetched: which rule skipped it, and was that right?"
             if job.picked_up is not None:
                 why = f"it was aboard from {job.picked_up:.1f} s on: where did the time go?"
             saw = f"Order {job.id} came at {job.requested:.1f} s and expired at {job.over:.1f} s"
@@ -170,7 +170,7 @@ def _battery(recording: Recording, done: Shift) -> Question | None:
     empty = next((stamp for stamp, share in done.battery if share <= 0.0), None)
     if empty is not None:
         saw = f"At {empty:.1f} s the battery was empty, {_place(recording, empty)}"
-        return Question(empty, empty, f"{saw}: when should the robot have turned round?")
+        return Question(empty, empty, f"{saw}: when should the robot have turned back?")
     found = [charge for charge in _charges(done) if _waited(done, charge)]
     if not found:
         return None
@@ -200,7 +200,7 @@ def _went_round(recording: Recording, done: Shift) -> Question | None:
     if more < MORE or way < ROUND * line:
         return None
     saw = f"From {begin:.1f} to {end:.1f} s it drove {way:.1f} m with order {order} aboard"
-    why = f"in a straight line it is {line:.1f} m: what was in between, and was there a shorter way?"
+    why = f"the straight line is {line:.1f} m: what was in between, and was there a shorter way?"
     return Question(begin, end, f"{saw}; {why}")
 
 
@@ -221,14 +221,14 @@ def _left(done: Shift, last: Seconds) -> Question | None:
     if done.delivered or not left:
         return None
     saw = f"Order {left[0].id} came at {left[0].requested:.1f} s and still waited at {last:.1f} s"
-    return Question(left[0].requested, last, f"{saw}: what kept the robot from it?")
+    return Question(left[0].requested, last, f"{saw}: what kept the robot from fetching it?")
 
 
 def _in_vain(done: Shift, last: Seconds) -> Question | None:
     """A long way without a delivery."""
     if done.delivered or done.way < WAY:
         return None
-    return Question(0.0, last, f"It drove {done.way:.0f} m and delivered nothing: where did it want to go?")
+    return Question(0.0, last, f"It drove {done.way:.0f} m and delivered nothing: where was it trying to go?")
 
 
 def _apart(one: Pose, other: Pose) -> float:

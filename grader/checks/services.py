@@ -12,8 +12,8 @@ from grader.checks.no_data import no_data
 from sim.evidence import Call, Endpoint, Recording, Seconds
 
 STUCK = (
-    "The callback of the service has not come back: it waits, or goes round in a loop. Let it note "
-    "in self what is wanted, and return the response at once."
+    "The service's callback hasn't returned: it waits, or is stuck in a loop. Let it store the request in "
+    "self, and return the response at once."
 )
 
 
@@ -60,9 +60,12 @@ def responds(
     asked = [call for call in recording.calls_of(service) if where(call) and _due(recording, call, within)]
     if not asked:
         serves(recording, service)
-        saw = f"{len(recording.calls_of(service))}, and none of them is one"
+        saw = f"{len(recording.calls_of(service))}, but none like that"
         raise no_data(
-            recording, f"calls of {service} that want an answer", saw, recording.graph.ends("client", service)
+            recording,
+            f"calls of {service} that should get a response",
+            saw,
+            recording.graph.ends("client", service),
         )
     misses = [miss for call in asked if (miss := _miss(call, right, within))]
     if misses:
@@ -96,7 +99,7 @@ def _no_answer(call: Call) -> str:
         return f"an answer after {call.answered - _began(call):.3g} s"
     if call.raised:
         return f"the callback raised {call.raised}"
-    return "no answer" if call.taken is not None else "no server took the request"
+    return "no answer" if call.taken is not None else "no server received the request"
 
 
 def call_text(call: Call) -> str:
@@ -117,14 +120,14 @@ def course_calls(run: Recording, service: str, at_least: int = 1) -> list[Call]:
 def offers(run: Recording, service: str, type: str) -> None:
     """A node offers a service of this type. Raises Missed with what is offered instead."""
     name = type.rsplit("/", 1)[-1]
-    with hinting(f'self.create_service({name}, "{service}", self.callback) offers one.'):
+    with hinting(f'self.create_service({name}, "{service}", self.callback) creates one.'):
         serves(run, service, type)
 
 
 def has_client(run: Recording, service: str, type: str) -> list[Call]:
     """The calls that clients of a service made, if any. Raises Missed without a client of this type."""
     name = type.rsplit("/", 1)[-1]
-    with hinting(f'self.client = self.create_client({name}, "{service}") makes one.'):
+    with hinting(f'self.client = self.create_client({name}, "{service}") creates one.'):
         declared(run, "client", service, type, f"a client for {service} of type {type}")
     return [call for call in run.calls_of(service) if call.requested is not None]
 

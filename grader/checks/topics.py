@@ -27,7 +27,7 @@ def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int
         few = f"only {len(received)} in {recording.ended.stamp:.3g} s"
         saw = few if received else "a publisher, but no message"
         expected = expected if at_least == 1 else f"{at_least} or more {expected}"
-        again = "Publish at each call of a timer's callback, from start to end." if received else ""
+        again = "Publish in a timer's callback each time it is called, from start to end." if received else ""
         raise Missed(expected, saw, guess=again, picture="topics")
     return received
 
@@ -106,7 +106,7 @@ def _rate_hint(recording: Recording, measured: float, hz: float) -> str:
     slow = slow_callback(recording)
     if slow or measured == 0:
         return slow
-    return f"A timer with period {1 / hz:.4g} s gives {hz:.4g} Hz: the period is 1 / rate, in seconds."
+    return f"A timer with a period of {1 / hz:.4g} s gives {hz:.4g} Hz: the period is 1 / rate, in seconds."
 
 
 def within(

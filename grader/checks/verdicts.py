@@ -19,10 +19,10 @@ from sim.evidence import Recording
 Status = Literal["passed", "failed", "skipped", "broken"]
 WORST_FIRST: tuple[Status, ...] = ("failed", "skipped", "broken", "passed")  # where the credit is the same
 
-BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
-EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
-EXPLAINED_BY_SPOOFING = "Not graded: it isn't clear which program sent what, see above."
-EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
+BROKEN_HINT = "Nothing for you to do: this check itself has a bug. Your instructor decides on its points."
+EXPLAINED_BY_FAULT = "Not graded: the error above explains it."
+EXPLAINED_BY_SPOOFING = "Not graded: it isn't clear which program sent what; see above."
+EXPLAINED_BY_HINT = "Not graded: the hint above explains it."
 SPOOFED_TOPICS = "keeps_apart"  # the name of the line about a topic or service with two owners
 
 
@@ -124,7 +124,7 @@ class _Judging:
         judged = [before for before in item.after if before.name in self.verdicts]
         unmet = next((before for before in judged if self.verdicts[before.name].credit == 0.0), None)
         if unmet:
-            return skipped(item, f"Not judged: first comes “{unmet.sentence}”")
+            return skipped(item, f"Not graded yet: fix this first: “{unmet.sentence}”")
         if item.after and self.intrusions:
             return skipped(item, EXPLAINED_BY_SPOOFING)
         try:

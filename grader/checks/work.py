@@ -37,7 +37,7 @@ def work_of(recording: Recording, *, may_end: bool = False) -> WorkTime:
         return WorkTime(1.0)
     if not (recording.errors or ended.reason in CUT_SHORT):
         return WorkTime(until / whole, f"{_for(until, whole)}: then your program had ended. {LIVES}")
-    what = "nothing went on" if ended.reason == "blocked" else "the error above ended it"
+    what = "nothing kept running" if ended.reason == "blocked" else "the error above ended it"
     return WorkTime(until / whole, f"{_for(until, whole)}: then {what}.")
 
 

@@ -31,13 +31,16 @@ def picked(run: Recording, action: str, where: Callable[[Goal], bool] = lambda g
     """Return the course's goals for an action that fit. Raises Missed if none was sent."""
     goals = [goal for goal in run.goals_of(action) if goal.requested_by_course]
     if not goals:
-        saw = "it was gone before a goal could be sent"
-        guess = "The node has to go on: main() ends with rclpy.spin(node), or executor.spin() with brackets."
-        raise Missed(f"a server of {action} that takes goals", saw, guess=guess)
+        saw = "it had exited before a goal could be sent"
+        guess = (
+            "The node has to keep running: end main() with rclpy.spin(node), or executor.spin() with "
+            "parentheses."
+        )
+        raise Missed(f"a server of {action} that receives goals", saw, guess=guess)
     found = [goal for goal in goals if where(goal)]
     if not found:
         expected = f"every goal for {action} brought to an end, so that the next one can be sent"
-        guess = "Each goal has to end: succeed(), canceled() or abort(), and then return."
+        guess = "Each goal has to end: call succeed(), canceled() or abort(), and then return."
         raise Missed(expected, f"only {len(goals)} sent in {run.ended.stamp:.3g} s", guess=guess)
     return found
 
@@ -95,5 +98,5 @@ def _result_guess(numbers: list[int], wanted: list[int]) -> str:
     if numbers == wanted[:-1]:
         return "The last number is missing: for order 5 the sequence ends with F(5), its sixth number."
     if numbers[: len(wanted)] == wanted:
-        return "There is one number too many: stop when the sequence holds F(order)."
+        return "There is one number too many: stop when the sequence contains F(order)."
     return "Each number is the sum of the two before it; the first two are 0 and 1."

@@ -50,4 +50,4 @@ def require_standing(run: Recording, window: Window, why: str, hint: str) -> Non
     for speed in speeds(window.rows(run.path)):
         if speed.linear > STANDING or speed.angular > TURNING:
             saw = f"{speed.linear:.2f} m/s and {speed.angular:.2f} rad/s at {speed.stamp:.3g} s"
-            raise Missed(f"the robot standing, {why}", saw, hint, picture="topics", unsafe=True)
+            raise Missed(f"the robot standing still, {why}", saw, hint, picture="topics", unsafe=True)

@@ -25,7 +25,7 @@ COLCON = (
     *("--log-base", "/dev/null", "build", "--merge-install", "--executor", "sequential"),
     *("--event-handlers", "console_stderr+", "console_direct-"),
 )
-NOT_TAKEN = "What was installed can't be taken."
+NOT_TAKEN = "The installed files can't be used."
 TOO_LONG = f"colcon build did not end within {SECONDS:g} s."
 
 

@@ -72,7 +72,7 @@ def select_definitions(folder: Path, name: str, sources: Sources) -> None:
         raise InvalidFiles(f"{CMAKE_LISTS} names no definition.")
     for path in paths:
         if f"{name}/{path}" not in sources:
-            raise InvalidFiles(f"{CMAKE_LISTS} names {path}, and there is no such file.")
+            raise InvalidFiles(f"{CMAKE_LISTS} names {path}, but there is no such file.")
         target = folder / "definitions" / name / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(sources[f"{name}/{path}"])

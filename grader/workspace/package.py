@@ -75,7 +75,7 @@ def with_interfaces(package: Package, uses: Interfaces, received: Any, build: Bu
     saw = made.saw if isinstance(made, Fault) else made.built.problem or uses.difference(made.built.files)
     if saw:
         expected = f"{uses.name} with the types that the task describes"
-        hint = f"Earn the points for {uses.name} first: the check there says what is missing."
+        hint = f"Earn the points for {uses.name} first: the check there shows what is missing."
         return replace(_fault(expected, saw, hint), sentence="The types that your package uses are built.")
     return replace(package, built=package.built.with_files_of(made.built))
 
@@ -96,7 +96,7 @@ def _plain(text: str) -> str:
 def _not_started(place: str) -> Fault:
     return Fault(
         expected="your own lines instead of `raise NotImplementedError()`",
-        saw=f"This exercise is not started yet: that line still is in {place}",
+        saw=f"This exercise is not started yet: that line is still in {place}",
         hint="Write your lines, delete the line that raises, and run this cell and the one below again.",
         before_start=True,
         sentence=NOT_STARTED,

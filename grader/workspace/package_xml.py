@@ -35,22 +35,24 @@ def parse_package_xml(sources: Sources, package: str, build_type: str = PYTHON) 
     """
     place = f"ws/src/{package}"
     if not any(path.startswith(f"{package}/") for path in sources):
-        raise InvalidFiles(f"There is no {place}. A package has a folder of its own name in ws/src.")
+        raise InvalidFiles(f"There is no {place}. A package is in a folder of its own name in ws/src.")
     data = sources.get(f"{package}/{FILE}")
     if data is None:
-        raise InvalidFiles(f"There is no {place}/{FILE}. Without it, colcon takes the folder for no package.")
+        raise InvalidFiles(
+            f"There is no {place}/{FILE}. Without it, colcon doesn't recognize the folder as a package."
+        )
     root = _parsed(data, place)
     name = (root.findtext("name") or "").strip()
     if name != package:
-        raise InvalidFiles(f"{place}/{FILE} says that its name is {name[:60]!r}. Expected is {package}.")
+        raise InvalidFiles(f"{place}/{FILE} gives its name as {name[:60]!r}; expected {package}.")
     kind = (root.findtext("export/build_type") or "").strip()
     if kind != build_type:
-        saw = f"says {kind[:60]!r} as its build type" if kind else "has no build type"
+        saw = f"gives {kind[:60]!r} as its build type" if kind else "has no build type"
         raise InvalidFiles(
-            f"{place}/{FILE} {saw}. In <export> it has to say <build_type>{build_type}</build_type>."
+            f"{place}/{FILE} {saw}. In <export> it needs <build_type>{build_type}</build_type>."
         )
     if f"{package}/{BUILT_BY[build_type]}" not in sources:
-        raise InvalidFiles(f"There is no {place}/{BUILT_BY[build_type]}. It says what is installed.")
+        raise InvalidFiles(f"There is no {place}/{BUILT_BY[build_type]}. It defines what is installed.")
     tags: dict[str, set[str]] = defaultdict(set)
     for item in root:
         tags[item.tag].add((item.text or "").strip())
@@ -62,7 +64,7 @@ def _parsed(data: bytes, place: str) -> ElementTree.Element:
         text = data.decode("utf-8-sig")
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
             problem = f"{place}/{FILE} has a <!DOCTYPE> or an <!ENTITY>."
-            raise InvalidFiles(f"{problem} It needs none: leave them out.")
+            raise InvalidFiles(f"{problem} It needs neither: leave them out.")
         return ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         line, column = error.position

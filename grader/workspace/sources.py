@@ -56,7 +56,7 @@ def read_files(folder: Path, shown: str, limits: SizeLimits = SUBMITTED) -> dict
         except FileNotFoundError:
             return {}
         except OSError:
-            problem = f"{shown} is no folder."
+            problem = f"{shown} is not a folder."
             raise InvalidFiles(f"{problem} Put your packages into a folder of this name.") from None
         opened.callback(os.close, descriptor)
         reading.folder(descriptor, "")
@@ -106,7 +106,7 @@ class _Reading:
         if not (stat.S_ISDIR(mode) or stat.S_ISREG(mode)):
             kind = FILE_KINDS.get(stat.S_IFMT(mode), "a device")
             problem = f"{self._at(path)} is {kind}."
-            raise InvalidFiles(f"{problem} Only files are taken: put the file itself there.")
+            raise InvalidFiles(f"{problem} Only files are used: put the file itself there.")
         is_folder = stat.S_ISDIR(mode)
         opened = os.open(name, _FOLDER if is_folder else _FILE, dir_fd=descriptor)
         try:
@@ -128,18 +128,20 @@ class _Reading:
     def depth(self, folders: int, path: str) -> None:
         """Raises InvalidFiles for a path that is too deep."""
         if folders > self._limits.deep:
-            raise InvalidFiles(f"{self._at(path)} lies deeper than {self._limits.deep} folders. Move it up.")
+            raise InvalidFiles(f"{self._at(path)} is more than {self._limits.deep} folders deep. Move it up.")
 
     def file(self, path: str, data: bytes) -> None:
         """Add a file. Raises InvalidFiles if it is too large, or if there are too many."""
         if len(data) > self._limits.file:
             raise InvalidFiles(
-                f"{self._at(path)} has more than {self._limits.file // 1000} kB. Leave out what is no source."
+                f"{self._at(path)} has more than {self._limits.file // 1000} kB. Leave out what isn't source "
+                "code."
             )
         self._size += len(data)
         if self._size > self._limits.all:
             raise InvalidFiles(
-                f"{self._shown} has more than {self._limits.all / 1e6:g} MB. Leave out what is no source."
+                f"{self._shown} has more than {self._limits.all / 1e6:g} MB. Leave out what isn't source "
+                "code."
             )
         self.found[path] = data
         if len(self.found) > self._limits.files:

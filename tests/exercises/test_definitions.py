@@ -11,7 +11,7 @@ from tests.students.packages import crates
 from tests.students.workspaces import Workspace
 
 TARGET = "crate_interfaces__rosidl_generator_type_description"  # what comes first, before any compiler
-FIELD = "The name of a field has small letters, digits and single underscores, such as top_speed."
+FIELD = "Write a field's name with lower-case letters, digits and single underscores, such as top_speed."
 
 
 def test_a_look_prints_the_definitions_as_they_are_read(capsys):

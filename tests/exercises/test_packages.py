@@ -60,14 +60,14 @@ def test_nothing_is_handed_over_before_anything_is_fixed(tmp_path):
     score = packages.patrol.grade(packages.repaired(tmp_path, repair))
     assert score == 0
     assert [verdict.saw for verdict in score.verdicts if verdict.status == "failed"] == [
-        "This exercise is not started yet: that line still is in the cell above, about patrol"
+        "This exercise is not started yet: that line is still in the cell above, about patrol"
     ]
 
 
 def test_what_can_not_be_built_is_reported_beside_the_notebook(tmp_path, capsys):
     assert packages.see(packages.greeter, tmp_path).seconds == 0
     assert capsys.readouterr().out == (
-        "There is no ws/src/greeter\nHint: A package has a folder of its own name in ws/src.\n"
+        "There is no ws/src/greeter\nHint: A package is in a folder of its own name in ws/src.\n"
     )
 
 
@@ -77,7 +77,7 @@ def test_where_nothing_can_be_built_the_notebook_says_who_does(monkeypatch, caps
 
     monkeypatch.setattr(building, "build", refuse)
     assert packages.see(packages.greeter, Workspace(__name__, RIGHT)).seconds == 0
-    words = "Here nothing can be built: when a class is marked, the test cell below does it.\n"
+    words = "Nothing can be built here: when a class is marked, the test cell below does it.\n"
     assert capsys.readouterr().out == words
 
 

@@ -48,6 +48,6 @@ def test_two_exercises_of_one_name_are_refused(monkeypatch, tmp_path):
         )
     monkeypatch.setattr(grader.exercises, "__path__", [str(tmp_path)])
     with pytest.raises(
-        ValueError, match=r"^two exercises are called 'twin': names are unique in the course$"
+        ValueError, match=r"^two exercises are called 'twin': names must be unique in the course$"
     ):
         exercises.__wrapped__()

@@ -233,7 +233,7 @@ NO_CODE = ("There is code to run.", "your node's class, or your main function")
 @pytest.mark.parametrize(
     "handed_over, saw, hint",
     [
-        ((), "nothing", "Put the name of your class between the brackets: grade(MyNode)."),
+        ((), "nothing", "Put the name of your class between the parentheses: grade(MyNode)."),
         ((None,), "None", "This exercise is not started yet: write your class in the cell above."),
         (
             (misfits.Talker, None),
@@ -288,7 +288,7 @@ def test_a_class_that_can_not_be_looked_at_gets_0():
     assert score == 0.0
     assert red_line(score) == (
         *NO_CODE,
-        "something that raises ValueError when it is looked at",
+        "something that raises ValueError when it is inspected",
         "Give an ordinary class that is based on Node.",
     )
 
@@ -319,14 +319,14 @@ def test_an_object_in_place_of_its_class_is_reported():
     assert line == (
         *NO_CODE,
         "an object of Talker",
-        "Leave out the brackets after the name: Talker, not Talker().",
+        "Leave out the parentheses after the name: Talker, not Talker().",
     )
 
 
 def test_where_there_is_nothing_to_run_every_check_says_so():
     score = talk.grade(None)
     assert score.title == "A talker"
-    assert [verdict.hint for verdict in score.verdicts[1:]] == ["Not judged: there is nothing to run."] * 2
+    assert [verdict.hint for verdict in score.verdicts[1:]] == ["Not graded: there is nothing to run."] * 2
 
 
 def test_a_stub_gets_0_and_its_own_words():

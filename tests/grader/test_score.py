@@ -31,7 +31,7 @@ MIXED = [
     verdict(0.0, "failed", expected="no error", saw="KeyError: <count>", hint="Set `self.count` & go on."),
     verdict(3.0),
     verdict(2.0, "failed", 0.5, expected="1 Hz", saw="2 Hz"),
-    verdict(1.0, "skipped", hint="Not judged: the error above explains it."),
+    verdict(1.0, "skipped", hint="Not graded: the error above explains it."),
     verdict(4.0, "broken", hint="Nothing to do.", alarm="Traceback ...\nKeyError: 'x'\n"),
 ]
 
@@ -123,7 +123,7 @@ A talker: 8 of 10 points
         Expected: 1 Hz
         Saw: 2 Hz
   ○ skipped         0 / 1  Check <1.0>.
-        Note: Not judged: the error above explains it.
+        Note: Not graded: the error above explains it.
   ! our mistake     4 / 4  Check <4.0>.
         Note: Nothing to do.
         For the instructor: KeyError: 'x'"""

@@ -98,7 +98,7 @@ def test_a_missing_newline_is_named(tmp_path, capsys):
     ("text", "words"),
     [
         ("", "x.ipynb is not a notebook: expected JSON, saw Expecting value: line 1 column 1 (char 0). "
-         "Was it cut off, or does it hold merge marks?"),
+         "Is it incomplete, or does it contain merge conflict markers?"),
         ("[]", "x.ipynb: expected notebook format 4, saw None. Open and save it in JupyterLab."),
         (text_of(nbformat=3), "x.ipynb: expected notebook format 4, saw 3. Open and save it in JupyterLab."),
         (text_of({"cell_type": "poem", "source": ""}), "x.ipynb is not a valid notebook: "

@@ -125,14 +125,14 @@ def test_the_first_goal_of_another_decision_is_named_and_the_others_give_credit(
 def test_a_decision_is_missed_where_there_is_none():
     assert missed(accepts, ran(goals.JudgeRaises, actions.Client), "/fibonacci").saw == "no decision on it"
     asked = ran(misfits.server_that_no_one_spins, actions.Client)
-    assert missed(accepts, asked, "/fibonacci").saw == "no server took the goal"
+    assert missed(accepts, asked, "/fibonacci").saw == "no server received the goal"
 
 
 def test_a_decision_needs_someone_who_asks():
     assert missed(accepts, recording(), "/fibonacci").saw == "no server for it"
     both, high = ran(actions.Server, actions.Client), {"where": lambda goal: goal.request.order > 5}
     miss = missed(accepts, both, "/fibonacci", **high)
-    assert (miss.expected, miss.saw) == ("goals for /fibonacci that fit", "1, and none of them is one")
+    assert (miss.expected, miss.saw) == ("goals for /fibonacci that fit", "1, but none like that")
     ends = both.graph.endpoints
     ends[:] = [end._replace(from_course=end.node == "/client") for end in ends]
     with pytest.raises(ValueError, match="nodes of the exercise's own should have sent goals for /fibonacci"):

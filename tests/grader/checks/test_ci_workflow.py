@@ -35,29 +35,39 @@ def test_a_workflow_that_tests_is_right(text):
 
 
 def test_what_is_no_workflow_is_missed_with_its_line():
-    spaces = "Indent with spaces, two for each level, and never with tabs."
-    assert missed("a: 1\n\tb: 2") == ("a workflow in test.yml", "a text that is no YAML: line 2", spaces, 0.0)
-    assert missed("text") == ("a workflow in test.yml", "no keys", "It has the keys name, on and jobs.", 0.0)
+    spaces = "Indent with spaces, two for each level, never with tabs."
+    assert missed("a: 1\n\tb: 2") == (
+        "a workflow in test.yml",
+        "text that isn't valid YAML: line 2",
+        spaces,
+        0.0,
+    )
+    assert missed("text") == (
+        "a workflow in test.yml",
+        "no keys",
+        "It needs the keys name, on and jobs.",
+        0.0,
+    )
     long = "More than 20000 bytes are not read: make it shorter."
     assert missed("#" * 20_001) == ("a workflow in test.yml", "20001 bytes", long, 0.0)
     with pytest.raises(Missed) as raised:
         read_workflow(PATH, b"\xff\xff")
-    assert raised.value.saw == "a text that is no YAML"
+    assert raised.value.saw == "text that isn't valid YAML"
 
 
-SOURCED = "Each step is a new terminal: source /opt/ros/jazzy/setup.bash, then colcon."
-RESULT = "colcon test ends with 0 even if a test fails; colcon test-result does not."
-HIDES = "A workflow is red if one of its commands fails: leave out what hides that."
+SOURCED = "Each step runs in a new shell: source /opt/ros/jazzy/setup.bash, then call colcon."
+RESULT = "colcon test exits with 0 even if a test fails; colcon test-result doesn't."
+HIDES = "A workflow fails if one of its commands fails: remove whatever hides that."
 
 
 @pytest.mark.parametrize(
     ("old", "new", "wanted"),
     [
         ("on: [push, pull_request]", "on: schedule",
-         ("a workflow that starts on push or pull_request", "schedule", "`on: [push]` starts it with each push.", 0.0)),
-        ("jobs:", "job:", ("a job below `jobs:`", "none", "A job has a name, runs-on, a container and steps.", 0.0)),
+         ("a workflow that starts on push or pull_request", "schedule", "`on: [push]` starts it on every push.", 0.0)),
+        ("jobs:", "job:", ("a job below `jobs:`", "none", "A job needs a name, runs-on, a container and steps.", 0.0)),
         ("      - uses: actions/checkout@v4\n", "",
-         ("a step that uses actions/checkout", "none", "Without it, none of your files is there.", 0.0)),
+         ("a step that uses actions/checkout", "none", "Add it: without it, none of your files are there.", 0.0)),
         ("ros:jazzy", "ros:humble",
          ("a container with ROS 2 Jazzy", "ros:humble", "`container: ros:jazzy` runs the steps where ROS is installed.", 0.0)),
         ("source /opt/ros/jazzy/setup.bash && ", "",

@@ -30,11 +30,11 @@ def test_commands_have_their_words_with_variables_put_in():
             "a command with 5631 characters",
             "More than 5000 are not read.",
         ),
-        ('\na("b', "'\"b' in line 2", "What begins there has no end."),
-        ("\na b", "b in line 2", "There a command should begin, such as project(...)."),
-        (")", ") in line 1", "There a command should begin, such as project(...)."),
-        ("a(b", "a without )", "A command ends with its bracket."),
-        ("a", "a without (...)", "A command ends with its bracket."),
+        ('\na("b', "'\"b' in line 2", "Something begins there and never ends: close the quote or bracket."),
+        ("\na b", "b in line 2", "A command such as project(...) should begin there."),
+        (")", ") in line 1", "A command such as project(...) should begin there."),
+        ("a(b", "a without )", "Close the command with its parenthesis."),
+        ("a", "a without (...)", "Close the command with its parenthesis."),
     ],
 )
 def test_what_cmake_can_not_read_is_reported(text, saw, hint):

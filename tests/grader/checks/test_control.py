@@ -19,20 +19,11 @@ from sim import World
 from sim.evidence import Pose
 from tests.grader.recordings import published, recording
 
-NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state comes."
-WRONG_WAY = (
-    "From the first moment on the cart is pushed the wrong way. A positive angle leans to the left: then the cart has "
-    "to get under it, to the left, which is a negative effort."
-)
-TOO_WEAK = (
-    "It went down on the side where it leant from the first: the cart didn't get under it. Is the gain on the angle "
-    "large enough, and has the one on the rate the same sign?"
-)
-SWINGS = (
-    "It swung higher and higher. P alone does: D brakes, a gain on the rate at which the pole turns, and of the same "
-    "sign. If it is there, make it larger."
-)
-TRACK = "The cart rolled to the end of the track, which stopped it. Its place has to count, too."
+NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state arrives."
+WRONG_WAY = "The cart is pushed the wrong way from the start. A positive angle means that the pole leans to the left: the cart has to get under it, to the left, which takes a negative effort."
+TOO_WEAK = "The pole fell to the side it leaned to from the start: the cart didn't get under it. Is the gain on the angle large enough, and does the one on the rate have the same sign?"
+SWINGS = "It swung more and more widely, as it does with P alone. Add D, a gain on the pole's rate, with the same sign. If you have it already, make it larger."
+TRACK = "The cart rolled to the end of the track, which stopped it. The effort has to depend on its position, too."
 
 
 def carried(angles, xs=None, *, efforts=(), seconds=None):
@@ -80,12 +71,12 @@ def test_a_pole_that_no_one_holds():
     miss = missed(stands, carried([0.1, 0.3, 0.6, 1.0]))
     assert (miss.expected, miss.saw) == (
         "a pole that stands for 0.4 s",
-        "it fell: at 0.2 s it leant by more than 0.5 rad",
+        "it fell: at 0.2 s it leaned by more than 0.5 rad",
     )
     assert (miss.hint, miss.credit) == (NO_EFFORT, 0.25)
     miss = missed(still_stands, carried([0.1, 0.6]))
     assert (miss.expected, miss.saw) == ("a pole that stands meanwhile", "it fell at 0.1 s")
-    assert miss.hint == "First the pole has to stand."
+    assert miss.hint == "Keep the pole up first."
 
 
 def test_a_pole_that_falls_early_earns_nothing_of_its_time():
@@ -105,10 +96,7 @@ def quick(force, period=0.01):
 
 
 def seldom(seconds):
-    return (
-        f"The efforts came too seldom: up to {seconds} s passed between two of them. The pole falls in the "
-        "meantime: push at each joint state, and let nothing hold the loop up."
-    )
+    return f"The efforts were too rare: up to {seconds} s passed between two of them, and the pole falls in the meantime. Publish one for each joint state, and let nothing block the loop."
 
 
 END = World.load("cart_pole").machine.track_length / 2
@@ -159,7 +147,7 @@ def test_a_cart_that_takes_too_long():
     run = carried([0.0] * 5, [0.0, 0.3, 0.4, 0.5, 0.5])
     miss = missed(settles, run, 0.5, seconds=0.1, tolerance=0.05)
     assert miss.expected == "the cart within 5 cm of 0.50 m, from 0.1 s after 0 s on"
-    assert miss.saw == "it is further away until 0.2 s"
+    assert miss.saw == "it is farther away until 0.2 s"
     miss = missed(settles, carried([0.0] * 3), 0.5, seconds=0.1, tolerance=0.05)
     assert miss.saw == "0.00 m at 0.2 s"
 

@@ -70,7 +70,7 @@ def test_other_frames_are_named_once_and_the_hint_says_which_is_which():
     rows = [Broadcast(1.0, transform("odom", child)) for child in ("base", "laser", "base")]
     miss = missed(rows)
     assert (miss.expected, miss.saw) == ("odom → base_link on /tf", "odom → base, odom → laser")
-    assert miss.hint == "header.frame_id is the parent, child_frame_id the child. Each letter counts."
+    assert miss.hint == "header.frame_id is the parent, child_frame_id the child. Every letter counts."
     assert (miss.credit, miss.measured) == (0.0, [])
     assert missed([]).saw == "no transform"
 
@@ -91,6 +91,6 @@ def test_a_part_is_earned_where_the_last_one_is_right_but_for_its_frames():
 
 def test_a_quaternion_is_explained():
     assert FULL_TURN == (
-        "A quaternion is not an angle: for a turn by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
-        "quaternion_from_euler(0, 0, yaw) gives all four numbers."
+        "A quaternion is not an angle: for a rotation by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
+        "quaternion_from_euler(0, 0, yaw) returns all four numbers."
     )

@@ -5,12 +5,12 @@ import pytest
 from grader.checks import Missed
 from grader.checks.interface_definitions import read_definition
 
-DASHES = "A line with three dashes, and nothing else, not even a space, stands between"
+DASHES = "A line with three dashes, and nothing else, not even a space, separates"
 TYPES = "Types are bool, string, float64, uint8 and so on, a message of this package, or PACKAGE/Name."
-TWICE = "Within a part each name stands once: leave one of them out."
-LONG = "A line has at most 200 characters before its comment."
-FIELD = "The name of a field has small letters, digits and single underscores, such as top_speed."
-CONSTANT = "The name of a constant has capital letters, digits and single underscores, such as TOO_HIGH."
+TWICE = "Within a part each name may appear only once: remove one of them."
+LONG = "Keep a line to at most 200 characters before its comment."
+FIELD = "Write a field's name with lower-case letters, digits and single underscores, such as top_speed."
+CONSTANT = "Write a constant's name with capital letters, digits and single underscores, such as TOO_HIGH."
 
 
 def test_each_part_has_its_lines_as_rosidl_understands_them():
@@ -28,19 +28,19 @@ def test_each_part_has_its_lines_as_rosidl_understands_them():
     ("text", "saw", "hint"),
     [
         ("#" * 10_001, "10001 bytes", "More than 10000 bytes are not read: make it shorter."),
-        ("\udcff", "bytes that are no text", "Save it as UTF-8."),
-        ("---", "1 lines with ---, and 0 should be there", "A message has one part only."),
+        ("\udcff", "bytes that aren't text", "Save it as UTF-8."),
+        ("---", "1 lines with ---, and 0 should be there", "A message has only one part."),
         ("--- ", "line 1: --- ", f"{DASHES} the parts."),
         ("---# a", "line 1: ---# a", f"{DASHES} the parts."),
         (
             "\ufeffbool a",
             "a byte order mark at its beginning",
-            "rosidl takes it for a letter of the first word. Save it as UTF-8 without BOM.",
+            "rosidl reads it as a letter of the first word. Save the file as UTF-8 without BOM.",
         ),
         (
             "bool\xa0a",
             "line 1: bool?a",
-            "The ? is a letter that doesn't show, such as a page's own spaces: type the line by hand.",
+            "The ? is an invisible character, such as a web page's special spaces: type the line by hand.",
         ),
         ("bool a\nbool a", "two lines with the name a", TWICE),
         (f"bool {'a' * 200}", f"line 1: bool {'a' * 195}", LONG),
@@ -49,11 +49,11 @@ def test_each_part_has_its_lines_as_rosidl_understands_them():
         (
             "uint8 state=1",
             "line 1: uint8 state=1",
-            "With = it is a constant, whose name has capital letters. A field reads `uint8 state`.",
+            "With = it is a constant, whose name is in capital letters. A field is written `uint8 state`.",
         ),
         ("uint8 Full=1", "line 1: uint8 Full=1", CONSTANT),
         (f"uint8 {'A' * 90}_=1", f"line 1: uint8 {'A' * 90}_=1", CONSTANT),
-        ("uint8 FULL 1", "line 1: uint8 FULL 1", "A constant has a =, such as `uint8 FULL=1`."),
+        ("uint8 FULL 1", "line 1: uint8 FULL 1", "A constant needs an =, such as `uint8 FULL=1`."),
         ("bool topSpeed", "line 1: bool topSpeed", FIELD),
         ("bool a;", "line 1: bool a;", FIELD),
         (
@@ -64,11 +64,11 @@ def test_each_part_has_its_lines_as_rosidl_understands_them():
         (
             "uint8 A=300",
             "line 1: uint8 A=300",
-            "What stands behind the name is its value, and rosidl says: value '300' can not be converted "
+            "The text after the name is its value, and rosidl says: value '300' can not be converted "
             "to type 'uint8': must be a valid integer value >= 0 and <= 255.",
         ),
-        ("float a", "line 1: float a", f"`float` is no type. {TYPES}"),
-        ("x] a", "line 1: x] a", f"`x]` is no type. {TYPES}"),
+        ("float a", "line 1: float a", f"`float` is not a type. {TYPES}"),
+        ("x] a", "line 1: x] a", f"`x]` is not a type. {TYPES}"),
     ],
 )  # fmt: skip
 def test_what_can_not_be_read_is_reported(text, saw, hint, capsys):

@@ -134,7 +134,7 @@ def test_a_figure_is_drawn_to_its_end():
     assert draws(run, LINE) == pytest.approx(0.0, abs=1e-6)
     miss = missed(draws, reaching([(0.9, 0.0), (0.5, 0.3), (0.65, 0.3)]), LINE, hint="Go on.")
     assert miss.expected == "all of the figure within 2 cm of the tip's path"
-    assert miss.saw == "86% of it; the tip never came nearer than 0.05 m to (0.70, 0.30) m"
+    assert miss.saw == "86% of it; the tip never came closer than 0.05 m to (0.70, 0.30) m"
     assert (miss.hint, miss.picture) == ("Go on.", "path")
     assert miss.credit == pytest.approx(18 / 21)
     assert missed(draws, reaching([(0.9, 0.0), (0.5, 0.3), (0.55, 0.3)]), LINE).credit == 0.0

@@ -34,7 +34,7 @@ def test_logs_misses_silence():
 def test_logs_misses_other_lines():
     miss = missed(logs, logged((1.0, "INFO", "hello")), "count")
     assert (miss.saw, miss.hint) == ("no such line; the first line is “hello”", "")
-    assert miss.guess == "Compare the two lines. And does anything call the method that should log it?"
+    assert miss.guess == "Compare the two lines. And is the method that should log it ever called?"
 
 
 def test_logs_shows_the_most_similar_line():
@@ -47,7 +47,7 @@ def test_logs_shows_the_most_similar_line():
 def test_logs_sees_that_an_f_is_missing():
     miss = missed(logs, logged((1.0, "INFO", "count: {self.count}")), r"count: \d")
     assert miss.saw == "“count: {self.count}”"
-    assert miss.hint == 'Put an f before the quotes: f"..." fills in what is in braces.'
+    assert miss.hint == 'Put an f before the quotes: f"..." inserts what is in braces.'
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_come_every_allows_gaps_that_are_a_tenth_off(period, gaps):
 def test_come_every_misses_a_gap_that_is_more_than_a_tenth_off(period, stamps):
     miss = pace(beats(*stamps, timers=[period]), period)
     assert miss.expected == f"a line every {period:g} s, from start to end"
-    assert miss.hint.startswith("One timer sets the pace")
+    assert miss.hint.startswith("Let one timer set the pace")
 
 
 @pytest.mark.parametrize(
@@ -167,8 +167,7 @@ def test_come_every_wants_a_timer_for_a_right_pace_too_and_gives_the_lines_to_la
     miss = pace(run, credit=0.25)
     assert (miss.expected, miss.saw) == ("a timer that sets the pace", "a line every 1 s, but no timer")
     assert miss.hint == (
-        "A node receives and answers nothing while a loop of its own sleeps: create_timer(1, method) has a "
-        "method called again and again, and leaves the node free."
+        "While a loop in the node sleeps, the node receives and answers nothing: create_timer(1, method) calls a method again and again, and leaves the node free."
     )
     assert (miss.credit, miss.measured) == (0.25, logs(run, "beat"))
 
@@ -178,7 +177,7 @@ def test_come_every_says_the_pace_and_that_one_timer_sets_it():
     assert miss.expected == "a line every 1 s, from start to end"
     assert miss.saw == "a line every 0.5 s, from 0.5 s to 2 s"
     assert miss.hint == (
-        "One timer sets the pace, its period in seconds. Log one line each time its method is called."
+        "Let one timer set the pace, with its period in seconds. Log one line each time its method is called."
     )
 
 
@@ -199,7 +198,7 @@ def test_come_every_tells_lines_without_a_pace_and_asks_for_a_timer(stamps, saw)
     miss = pace(beats(*stamps))
     assert miss.saw == saw
     assert miss.hint == (
-        "The node has no timer: create_timer(period, method) has a method called again and again."
+        "The node has no timer: create_timer(period, method) calls a method again and again."
     )
 
 

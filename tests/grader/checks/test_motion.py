@@ -40,7 +40,7 @@ def test_keeps_clear_tells_the_first_contact():
     miss = missed(keeps_clear, driven(SQUARE, contacts=[touch]))
     assert miss.expected == "no contact with walls or boxes"
     assert miss.saw == "1 contact; the first at 3.25 s: a wall at (1.00, 2.00) m, on the robot's front side"
-    assert miss.hint == "Slow down or turn away earlier: /scan says how far it is to the next wall."
+    assert miss.hint == "Slow down or turn away earlier: /scan gives the distance to the nearest wall."
     assert miss.unsafe
     assert missed(keeps_clear, driven(SQUARE, contacts=[touch]), "Look ahead.").hint == "Look ahead."
     twice = driven(SQUARE, contacts=[touch, (3.75, 4.0, 0.0, 2.0, "left", "box")])
@@ -97,7 +97,7 @@ def test_passes_wants_the_points_in_order():
     passes(driven(SQUARE), SQUARE)
     miss = missed(passes, driven(SQUARE), [(1.0, 0.0), (0.0, 1.0), (1.0, 1.0)])
     assert miss.expected == "the robot within 0.1 m of 3 points, one after the other"
-    assert miss.saw == "2 of them; it never came to (1, 1) m after that"
+    assert miss.saw == "2 of them; it never reached (1, 1) m after that"
     assert miss.credit == pytest.approx(2 / 3)
     passes(driven([(0, 0), (1.25, 0)]), [(1.0, 0.0)], tolerance=0.25)
 

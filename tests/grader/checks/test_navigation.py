@@ -66,7 +66,7 @@ def test_without_a_goal_the_client_found_no_server():
     for run in (recording(), driven(goal(from_course=False))):
         with pytest.raises(Missed) as caught:
             goals_from_course(run)
-        assert caught.value.expected == "a goal that is taken"
+        assert caught.value.expected == "a goal that a server receives"
         assert caught.value.saw == "no server was there when the client looked for one"
 
 
@@ -90,7 +90,7 @@ def test_feedback_that_is_right_has_no_faults():
 
 @pytest.mark.parametrize(("x", "wrong"), [(0.69, False), (0.71, True), (0.29, True), (math.nan, True)])
 def test_a_pose_may_be_two_tenths_of_a_meter_off(x, wrong):
-    hint = "current_pose is where the robot is in the map, not by its odometry: self.pose."
+    hint = "current_pose is where the robot is in the map, not in its odometry: self.pose."
     expected = ("current_pose at (0.50, 0.50) m, at 2 s", f"({x:.2f}, 0.50) m", hint)
     assert faults((1.0, feedback()), (2.0, feedback(x=x))) == ([expected] if wrong else [])
 
@@ -144,6 +144,6 @@ def test_after_a_touch_feedback_is_not_judged_as_odometry_is_wrong_then():
 @pytest.mark.parametrize(("seconds", "wrong"), [((3.0, 2.0, 0.0, 0.0), False), ((3.0, 0.0, 0.0, 0.0), True), ((0.0,), False)])
 def test_an_estimate_is_above_0_in_the_first_half_of_the_way(seconds, wrong):
     found = faults(*((float(n), feedback(seconds=left)) for n, left in enumerate(seconds, 1)))
-    hint = "It is the distance by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
+    hint = "It is the distance divided by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
     expected = ("an estimated_time_remaining above 0 on the way", "0 s or less", hint)
     assert found == ([expected] if wrong else [])

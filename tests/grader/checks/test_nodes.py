@@ -31,7 +31,7 @@ def test_named_finds_the_node():
     assert miss.typo == ("__node", "talkers")
     assert missed(named, talker, "/camera").typo is None
     assert missed(named, recording(graph=Graph(["/eye", "/ear"])), "/talker").saw == "/eye, /ear"
-    assert missed(named, talker, "/camera").hint == "The name of a node is set by super().__init__('name')."
+    assert missed(named, talker, "/camera").hint == "Set the node's name with super().__init__('name')."
     assert missed(named, recording(), "/talker").saw == "no node"
 
 

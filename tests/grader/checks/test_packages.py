@@ -47,8 +47,7 @@ def test_a_package_names_what_its_modules_and_launch_files_import_of_ros():
     assert miss.expected == f"<depend> or <exec_depend> for each of {', '.join(WANTED)} in package.xml"
     assert miss.saw == "none for geometry_msgs, launch"
     assert miss.hint == (
-        "Anyone who installs your package gets what package.xml names. Here all of ROS is there, so it runs all the same. "
-        "Add <depend>geometry_msgs</depend>."
+        "Anyone who installs your package gets only what package.xml names. Here all of ROS is installed, so it runs anyway. Add <depend>geometry_msgs</depend>."
     )
 
 

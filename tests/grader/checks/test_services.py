@@ -110,7 +110,7 @@ def test_responds_misses_an_answer_that_comes_late():
 
 @pytest.mark.parametrize("server, saw", [
     (callers.Raises, "the callback raised ValueError"),
-    (misfits.adder_that_no_one_spins, "no server took the request"),
+    (misfits.adder_that_no_one_spins, "no server received the request"),
 ])  # fmt: skip
 def test_responds_misses_an_answer_that_never_comes(server, saw):
     assert missed(responds, ran(server, services.done_callback), "/add").saw == saw
@@ -172,7 +172,7 @@ def test_responds_misses_a_service_that_is_not_there():
 
 def test_responds_needs_someone_who_calls():
     miss = missed(responds, ran(services.Adder), "/add")
-    assert (miss.expected, miss.saw) == ("calls of /add that want an answer", "0, and none of them is one")
+    assert (miss.expected, miss.saw) == ("calls of /add that should get a response", "0, but none like that")
 
 
 def test_responds_knows_calls_whose_client_is_unknown():
@@ -209,7 +209,7 @@ def test_who_offers_no_service_of_the_type_sees_how_to_make_one():
     offers(ran(services.Adder), "/add", ADD)
     miss = missed(offers, recording(), "/add", ADD)
     assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "no server for it")
-    assert miss.hint == 'self.create_service(AddTwoInts, "/add", self.callback) offers one.'
+    assert miss.hint == 'self.create_service(AddTwoInts, "/add", self.callback) creates one.'
 
 
 def test_who_has_no_client_of_the_type_sees_how_to_make_one():
@@ -219,7 +219,7 @@ def test_who_has_no_client_of_the_type_sees_how_to_make_one():
     assert has_client(run, "/arm", "std_srvs/srv/SetBool") == [made]
     miss = missed(has_client, recording(), "/arm", "std_srvs/srv/SetBool")
     assert miss.expected == "a client for /arm of type std_srvs/srv/SetBool"
-    assert miss.hint == 'self.client = self.create_client(SetBool, "/arm") makes one.'
+    assert miss.hint == 'self.client = self.create_client(SetBool, "/arm") creates one.'
 
 
 @pytest.mark.parametrize(
@@ -235,8 +235,7 @@ def test_a_response_is_a_success_or_a_refusal_and_without_one_it_is_neither(call
 
 
 STUCK = (
-    "The callback of the service has not come back: it waits, or goes round in a loop. Let it note in self what is "
-    "wanted, and return the response at once."
+    "The service's callback hasn't returned: it waits, or is stuck in a loop. Let it store the request in self, and return the response at once."
 )
 
 

@@ -122,7 +122,7 @@ def test_who_publishes_on_a_topic_of_the_course_is_reported_and_judged_no_furthe
         "two, /robot and /robot of yours",
         "Other nodes can't tell the two apart: use a name of your own, or only subscribe.",
     )
-    assert right.hint == "Not graded: it isn't clear which program sent what, see above."
+    assert right.hint == "Not graded: it isn't clear which program sent what; see above."
 
 
 def test_an_end_of_the_course_is_none_of_the_students():

@@ -85,7 +85,7 @@ def test_publishes_misses_a_publisher_that_says_nothing():
 def test_publishes_counts():
     miss = missed(publishes, ticks([1.0, 2.0]), "/chatter", at_least=3)
     assert (miss.expected, miss.saw) == ("3 or more messages on /chatter", "only 2 in 10 s")
-    assert miss.guess == "Publish at each call of a timer's callback, from start to end."
+    assert miss.guess == "Publish in a timer's callback each time it is called, from start to end."
 
 
 def test_subscribes_finds_the_subscription():
@@ -108,7 +108,7 @@ def test_rate_misses_another_rate_and_tells_the_period():
     miss = missed(rate, ticks([0.5 * n for n in range(1, 21)]), "/chatter", 1.0)
     assert miss.expected == "1 Hz on /chatter, within 10%"
     assert miss.saw == "2 Hz (20 messages in 10 s)"
-    assert miss.hint == "A timer with period 1 s gives 1 Hz: the period is 1 / rate, in seconds."
+    assert miss.hint == "A timer with a period of 1 s gives 1 Hz: the period is 1 / rate, in seconds."
     assert miss.picture == "topics"
 
 
@@ -138,7 +138,7 @@ def test_a_rate_may_be_a_tenth_off_or_as_much_as_is_said(hz):
     assert rate(at(1.09), "/chatter", hz) == pytest.approx(1.09 * hz)
     assert rate(at(0.91), "/chatter", hz) == pytest.approx(0.91 * hz)
     fast = missed(rate, at(1.12), "/chatter", hz)
-    hint = f"A timer with period {1 / hz:g} s gives {hz:g} Hz: the period is 1 / rate, in seconds."
+    hint = f"A timer with a period of {1 / hz:g} s gives {hz:g} Hz: the period is 1 / rate, in seconds."
     assert (fast.expected, fast.hint) == (f"{hz:g} Hz on /chatter, within 10%", hint)
     assert missed(rate, at(0.88), "/chatter", hz).hint == hint
     assert rate(at(1.12), "/chatter", hz, tolerance=0.2) == pytest.approx(1.12 * hz)

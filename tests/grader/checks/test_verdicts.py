@@ -72,8 +72,8 @@ def test_what_an_earlier_miss_explains_is_skipped_down_the_line():
     verdicts = judge([sends, paced, ends], Recording())
     assert statuses(verdicts) == {"sends": "failed", "paced": "skipped", "ends": "skipped"}
     assert [verdict.hint for verdict in verdicts[1:]] == [
-        "Not judged: first comes “It sends messages.”",
-        "Not judged: first comes “It sends them in time.”",
+        "Not graded yet: fix this first: “It sends messages.”",
+        "Not graded yet: fix this first: “It sends them in time.”",
     ]
 
 
@@ -87,7 +87,7 @@ def test_a_check_that_raises_leaves_its_points_to_the_instructor():
     (verdict,) = judge([faulty_check], Recording())
     assert (verdict.status, verdict.earned) == ("broken", 0.0)
     assert verdict.hint == (
-        "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
+        "Nothing for you to do: this check itself has a bug. Your instructor decides on its points."
     )
     assert verdict.alarm.endswith("AttributeError: 'Recording' object has no attribute 'no_such_thing'\n")
     assert "in faulty_check" in verdict.alarm
@@ -98,7 +98,7 @@ def test_an_error_comes_first_and_explains_what_then_misses():
     assert statuses(verdicts) == {"runs": "failed", "sends": "skipped", "half": "failed"}
     assert (verdicts[0].sentence, verdicts[0].points) == ("Your code runs without an error.", 0.0)
     assert verdicts[0].saw == "KeyError: count (in Talker.tick, at 2 s)"
-    assert verdicts[1].hint == "Not judged: the error above explains it."
+    assert verdicts[1].hint == "Not graded: the error above explains it."
 
 
 def test_what_passed_before_an_error_counts():
@@ -126,7 +126,7 @@ def test_who_gets_stuck_has_the_share_of_the_points_in_which_nothing_was_wrong(r
     assert (error.name, error.saw) == ("runs", "It waits.")
     assert (first.status, first.earned) == ("passed", 1.0)
     assert (second.status, second.earned) == ("skipped", 0.5)
-    then = "nothing went on" if reason == "blocked" else "the error above ended it"
+    then = "nothing kept running" if reason == "blocked" else "the error above ended it"
     assert second.hint == f"Earned for 2.5 of 10 s: then {then}."
 
 
@@ -187,7 +187,7 @@ def test_a_miss_without_a_hint_gets_the_diagnosis_and_a_second_one_is_explained_
         verdicts[0].hint
         == "/talker has no publisher, no subscription and no timer: nothing can happen in it."
     )
-    assert verdicts[1].hint == "Not judged: the hint above explains it."
+    assert verdicts[1].hint == "Not graded: the hint above explains it."
 
 
 def test_misses_that_nothing_explains_are_all_reported():
@@ -268,7 +268,7 @@ def test_of_topics_with_two_owners_the_first_is_named_and_carries_no_points():
         "Other nodes can't tell the two apart: use a name of your own, or only subscribe.",
     )
     assert (first.status, first.earned) == ("passed", 1.0)
-    hint = "Not graded: it isn't clear which program sent what, see above."
+    hint = "Not graded: it isn't clear which program sent what; see above."
     assert (second.status, second.earned, second.hint) == ("skipped", 0.0, hint)
 
 

@@ -23,7 +23,7 @@ def of(reason, stamp=10.0, detail="", **more):
         (of("error", all_exited_at=2.5, errors=[ERROR]), "the error above ended it."),
         (of("hang", 2.5), "the error above ended it."),
         (of("livelock", 2.5), "the error above ended it."),
-        (of("blocked", detail=STUCK), "nothing went on."),
+        (of("blocked", detail=STUCK), "nothing kept running."),
     ],
 )
 def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):

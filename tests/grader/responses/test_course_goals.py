@@ -59,11 +59,11 @@ def test_the_courses_goals_for_a_server_are_given():
 def test_a_server_that_is_gone_before_a_goal_is_missed():
     miss = missed(picked, recording(goals=[goal(from_course=False)]), FIBONACCI)
     assert (miss.expected, miss.saw) == (
-        "a server of /fibonacci that takes goals",
-        "it was gone before a goal could be sent",
+        "a server of /fibonacci that receives goals",
+        "it had exited before a goal could be sent",
     )
     assert miss.guess == (
-        "The node has to go on: main() ends with rclpy.spin(node), or executor.spin() with brackets."
+        "The node has to keep running: end main() with rclpy.spin(node), or executor.spin() with parentheses."
     )
 
 
@@ -73,7 +73,7 @@ def test_goals_that_were_never_sent_are_missed_as_an_earlier_one_has_not_ended()
     miss = missed(picked, run, FIBONACCI, lambda one: one.request.order == 9)
     assert miss.expected == "every goal for /fibonacci brought to an end, so that the next one can be sent"
     assert miss.saw == "only 2 sent in 10 s"
-    assert miss.guess == "Each goal has to end: succeed(), canceled() or abort(), and then return."
+    assert miss.guess == "Each goal has to end: call succeed(), canceled() or abort(), and then return."
 
 
 def test_the_sequence_goes_to_the_number_of_its_order_and_has_two_numbers_at_least():
@@ -112,7 +112,7 @@ def test_numbers_are_found_in_a_text():
     [
         ([], "The result is empty: put the numbers into its field, Fibonacci.Result(sequence=sequence)."),
         ([0, 1, 1, 2], "The last number is missing: for order 5 the sequence ends with F(5), its sixth number."),
-        ([0, 1, 1, 2, 3, 5], "There is one number too many: stop when the sequence holds F(order)."),
+        ([0, 1, 1, 2, 3, 5], "There is one number too many: stop when the sequence contains F(order)."),
         ([0, 1, 2, 3, 5], "Each number is the sum of the two before it; the first two are 0 and 1."),
         ([0, 1, 1], "Each number is the sum of the two before it; the first two are 0 and 1."),
     ],

@@ -40,7 +40,7 @@ def test_standing_is_required_within_the_window_only():
     with pytest.raises(Missed) as missed:
         require_standing(Recording(path=PATH), Window(0.0, 1.0), "after the stop", "Publish zeros.")
     assert (missed.value.expected, missed.value.saw, missed.value.hint, missed.value.unsafe) == (
-        "the robot standing, after the stop",
+        "the robot standing still, after the stop",
         "0.50 m/s and 0.00 rad/s at 1 s",
         "Publish zeros.",
         True,

@@ -52,12 +52,12 @@ def test_a_process_that_can_start_nothing_says_so(monkeypatch):
 @pytest.mark.parametrize(
     ("output", "hint"),
     [
-        ("", "Look at the lines above, or say colcon build in ws, and read its first error."),
+        ("", "Look at the lines above, or run colcon build in ws, and read its first error."),
         ("KeyError: 'a'\n", "The first error is: KeyError: 'a'"),
         ("error: no such thing\n", "setup.py says: no such thing"),
         (
             "error: package directory 'gree' does not exist",
-            "setup.py names the package 'gree', and no folder of that name is beside it.",
+            "setup.py names the package 'gree', but no folder next to it has that name.",
         ),
     ],
 )
@@ -66,7 +66,7 @@ def test_a_reason_is_put_in_a_beginners_words(output, hint):
 
 
 def test_where_what_was_installed_is_refused_that_says_it_all():
-    problem = "What was installed can't be taken. It is too much. Leave it out."
+    problem = "The installed files can't be used. It is too much. Leave it out."
     built = Built(output="error: no matter\nFinished <<< greeter [1s]\n", problem=problem)
     assert explain_build_error(built) == (built.problem, "")
 
@@ -90,7 +90,7 @@ def test_what_another_process_built_is_looked_at():
         ("Give the folder.", "Give the folder.", ""),
         ([1], "ws/src/greeter could not be read.", ""),
         ({"a": "text"}, "ws/src/greeter could not be read.", ""),
-        ({}, "There is no ws/src/greeter", "A package has a folder of its own name in ws/src."),
+        ({}, "There is no ws/src/greeter", "A package is in a folder of its own name in ws/src."),
     ],
 )
 def test_what_can_not_be_a_package_is_a_fault(received, saw, hint):

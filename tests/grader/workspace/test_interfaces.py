@@ -44,7 +44,7 @@ def test_the_courses_own_types_are_those_of_the_right_package():
     [
         (with_cmake("project(a)"), "CMakeLists.txt names no definition."),
         (with_cmake("# msg/Crate.msg"), "CMakeLists.txt names no definition."),
-        (with_cmake("msg/Num.msg"), "CMakeLists.txt names msg/Num.msg, and there is no such file."),
+        (with_cmake("msg/Num.msg"), "CMakeLists.txt names msg/Num.msg, but there is no such file."),
         (with_cmake("msg/Crate.msg"), "rosidl_generate_interfaces has no DEPENDENCIES geometry_msgs."),
         ({**RIGHT, crates.CRATE: b"float64 Mass"}, "The types could not be built."),
     ],
@@ -72,7 +72,7 @@ def test_types_that_are_not_those_of_the_task_are_a_fault():
     assert (fault.expected, fault.saw, fault.hint, fault.sentence, fault.before_start) == (
         "crate_interfaces with the types that the task describes",
         "Crate is not built",
-        "Earn the points for crate_interfaces first: the check there says what is missing.",
+        "Earn the points for crate_interfaces first: the check there shows what is missing.",
         "The types that your package uses are built.",
         True,
     )

@@ -35,12 +35,12 @@ def test_a_package_of_interfaces_says_how_it_is_built_and_in_which_group_it_is()
         (XML.encode("utf-16"), f"{PLACE} can't be read. Save it as UTF-8."),
         (
             b"<!DOCTYPE a [<!ENTITY b 'c'>]><package/>",
-            f"{PLACE} has a <!DOCTYPE> or an <!ENTITY>. It needs none: leave them out.",
+            f"{PLACE} has a <!DOCTYPE> or an <!ENTITY>. It needs neither: leave them out.",
         ),
-        (b"<package/>", f"{PLACE} says that its name is ''. Expected is greeter."),
+        (b"<package/>", f"{PLACE} gives its name as ''; expected greeter."),
         (
             b"<package><name>greeter</name></package>",
-            f"{PLACE} has no build type. In <export> it has to say <build_type>ament_python</build_type>.",
+            f"{PLACE} has no build type. In <export> it needs <build_type>ament_python</build_type>.",
         ),
     ],
 )

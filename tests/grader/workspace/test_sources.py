@@ -36,7 +36,7 @@ def test_no_folder_has_no_files(tmp_path):
 def test_a_file_or_a_link_is_no_folder(tmp_path):
     write(tmp_path, "file")
     (tmp_path / "link").symlink_to(tmp_path)
-    words = "ws/src is no folder. Put your packages into a folder of this name."
+    words = "ws/src is not a folder. Put your packages into a folder of this name."
     assert {refusal(tmp_path / name) for name in ("file", "link")} == {words}
 
 
@@ -50,7 +50,7 @@ def test_what_is_no_file_is_refused(tmp_path, monkeypatch):
     listening = socket.socket(socket.AF_UNIX)
     listening.bind("socket/s")
     listening.close()
-    words = "Only files are taken: put the file itself there."
+    words = "Only files are used: put the file itself there."
     assert refusal(tmp_path / "link") == f"`ws/src/passwd` is a link. {words}"
     assert refusal(tmp_path / "loop") == f"`ws/src/up` is a link. {words}"
     assert refusal(tmp_path / "pipe") == f"`ws/src/p` is a pipe. {words}"
@@ -63,7 +63,7 @@ def test_a_device_is_refused(tmp_path):
         os.mknod(tmp_path / "null", 0o20666, os.makedev(1, 3))
     except PermissionError:
         pytest.skip("not even root can make a device here")
-    words = "`ws/src/null` is a device. Only files are taken: put the file itself there."
+    words = "`ws/src/null` is a device. Only files are used: put the file itself there."
     assert refusal(tmp_path) == words
 
 
@@ -90,9 +90,9 @@ def test_too_many_too_large_and_too_deep_are_refused(tmp_path):
     write(tmp_path / "heavy", "a", "b", "c", size=999)
     write(tmp_path / "deep", "a/b/c/d")
     assert refusal(tmp_path / "many") == "ws/src has more than 3 files. Leave out what isn't needed."
-    assert refusal(tmp_path / "large") == "`ws/src/a` has more than 1 kB. Leave out what is no source."
-    assert refusal(tmp_path / "heavy") == "ws/src has more than 0.002 MB. Leave out what is no source."
-    assert refusal(tmp_path / "deep") == "`ws/src/a/b/c` lies deeper than 2 folders. Move it up."
+    assert refusal(tmp_path / "large") == "`ws/src/a` has more than 1 kB. Leave out what isn't source code."
+    assert refusal(tmp_path / "heavy") == "ws/src has more than 0.002 MB. Leave out what isn't source code."
+    assert refusal(tmp_path / "deep") == "`ws/src/a/b/c` is more than 2 folders deep. Move it up."
 
 
 def test_what_another_process_says_is_held_to_the_same():

@@ -83,13 +83,13 @@ def test_links_and_floods_in_what_is_installed_are_refused(builders):
     link = with_setup(
         builders, late.format(f"os.path.isdir({install}) and os.symlink('/etc', {install} + '/x')")
     )
-    assert link.problem.startswith("What was installed can't be taken. `install/share/x` is a link.")
+    assert link.problem.startswith("The installed files can't be used. `install/share/x` is a link.")
     flood = (
         f"[open({install} + f'/f{{n}}', 'w').close() for n in range(600)] if os.path.isdir({install}) else 0"
     )
     many = with_setup(builders, late.format(flood))
     assert many.problem == (
-        "What was installed can't be taken. install has more than 400 files. Leave out what isn't needed."
+        "The installed files can't be used. install has more than 400 files. Leave out what isn't needed."
     )
 
 
@@ -120,7 +120,7 @@ def test_an_answer_that_makes_no_sense_is_no_build(answer):
     with child_end:
         Wire(child_end).send(**answer)
         made = request_build(parent_end, {}, lambda: "")
-    assert made.problem == "What was installed can't be taken. install could not be read."
+    assert made.problem == "The installed files can't be used. install could not be read."
 
 
 def test_files_that_lie_outside_are_refused():
@@ -128,7 +128,7 @@ def test_files_that_lie_outside_are_refused():
     with child_end:
         Wire(child_end).send(files={"../a": b""}, programs=[], output="", problem="")
         made = request_build(parent_end, {}, lambda: "")
-    assert made.problem.startswith("What was installed can't be taken. `install/../a`: a name may have")
+    assert made.problem.startswith("The installed files can't be used. `install/../a`: a name may have")
 
 
 def test_a_process_that_is_gone_is_reported_with_its_end():

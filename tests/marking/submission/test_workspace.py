@@ -39,8 +39,8 @@ def test_another_file_is_another_submission(folder):
     ("link", "reason"),
     [
         ("ws", "`ws` is a link. Hand in the folder itself."),
-        ("ws/src", "ws/src is no folder. Put your packages into a folder of this name."),
-        ("ws/src/a", "`ws/src/a` is a link. Only files are taken: put the file itself there."),
+        ("ws/src", "ws/src is not a folder. Put your packages into a folder of this name."),
+        ("ws/src/a", "`ws/src/a` is a link. Only files are used: put the file itself there."),
     ],
 )
 def test_a_link_is_not_followed_and_the_notebook_is_marked_all_the_same(folder, tmp_path, link, reason):

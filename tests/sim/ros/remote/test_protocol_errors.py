@@ -430,7 +430,7 @@ def test_a_lost_process_is_not_attributed_to_the_course():
 def test_an_invalid_refusal_is_a_lost_process(answer):
     with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
         TALKING.judge(RemotePrograms(remote))
-    assert lost.value.reason == "The process with the nodes did not say whether they can be run."
+    assert lost.value.reason == "The process with the nodes did not report whether they can be run."
 
 
 def test_a_refusal_is_shown_unchanged():
