@@ -86,6 +86,11 @@ SENSOR_RULES = (
         "height and 0 <= column < width:`.",
     ),
     Rule(
+        "ValueError", r"cannot reshape array of size \d+ into shape \(\d+,\d+,3\)",
+        "The message has more or fewer bytes than that. In an image whose rows have padding, a row has "
+        "`image.step` bytes: reshape to (image.height, image.step), and cut each row to 3 * image.width.",
+    ),
+    Rule(
         "KeyError", r"^(\(.+\)|None)$",
         "The dictionary has no key {0}. Should it have been stored before? Otherwise test first, `if key in "
         "dictionary:`, or give a default, `dictionary.get(key, math.inf)`.",

@@ -16,6 +16,8 @@ ADVICE = {
     "BiasOfAnotherBranch": "`bias` has no value on this path through the method: it is set only in another branch, or was set in an earlier call. Store what a later call needs in self.",
     "AddsUpVectors": "A Vector3 is not a number; it contains numbers: use the field that you need, such as `.x` or `.z`.",
     "LeastOfNothing": "min() of an empty list: no values were left. Add a default for that case: `min(values, default=math.inf)`.",
+    "ReshapesByWidth": "The message has more or fewer bytes than that. In an image whose rows have padding, a row has "
+    "`image.step` bytes: reshape to (image.height, image.step), and cut each row to 3 * image.width.",
     "LeastOfAnEmptyArray": "min() of an empty array: no values were left. Add an initial value for that case: `values.min(initial=np.inf)`.",
     "TakesAStampFromATime": "You can't calculate with the stamp of a message as it is: `Time.from_msg(msg.header.stamp)` converts it to a Time.",
     "LooksBackFromTimeZero": 'A bare Time() is time 0, and nothing comes before it. The current time is `self.get_clock().now()`; for "not yet" store None, and test for that first.',
