@@ -11,7 +11,7 @@ COMMANDS = {
     "multicast": "domains reach no further than this machine. Use `ros2 doctor hello` to test them instead.",
     "plugin": "plugins are C++ libraries. Use `ros2 pkg executables` to see what can be started instead.",
     "security": "nothing here is encrypted. Use a ROS installation for SROS 2 instead.",
-    "test": "it needs launch_testing. Use `pytest` or `colcon test` instead.",
+    "test": "it needs launch_testing. Use launch_pytest, and `pytest` or `colcon test`, instead.",
     "trace": "it needs LTTng. Use `%ros2 topic hz`, `delay` or plot_jitter() of sim.view instead.",
     "bag burst": "no bag plays message by message. Use `ros2 bag play --rate` with a small rate instead.",
 }

@@ -281,8 +281,19 @@ def test_an_action_is_executed_once(launched):
     )
 
 
-def test_cached_output_is_refused():
-    with pytest.raises(
-        NotImplementedError, match=r"^launch's cached_output is not supported here: write output='sc"
-    ):
-        python("", cached_output=True)
+def test_the_output_and_the_status_of_a_process_are_available(launched):
+    program = python(SAYS, "3", cached_output=True)
+    assert program.return_code is None
+    launched(program)
+    assert (program.get_stdout(), program.get_stderr(), program.return_code) == ("out\n", "err\n", 3)
+
+
+@pytest.mark.parametrize("name", ["get_stdout", "get_stderr"])
+def test_output_that_is_not_cached_is_refused(name):
+    with pytest.raises(RuntimeError) as error:
+        getattr(python(""), name)()
+    assert re.fullmatch(
+        r"the output of <launch.actions.execute_process.ExecuteProcess object at 0x\w+> is not stored: "
+        r"create the action with cached_output=True\.",
+        str(error.value),
+    )

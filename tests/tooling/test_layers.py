@@ -44,8 +44,10 @@ SIM_ROS = (
 ROS_PACKAGES = ("ros_packages/python", "ros_packages/interfaces")
 COURSE = re.compile(rf"sim|grader|{JUPYTER.pattern}|{PICTURES.pattern}|{NBGRADER.pattern}")
 
-# The modules of launch and launch_ros, from the bottom: each imports from its own layer and those before it.
+# The modules of launch, launch_ros and launch_pytest, from the bottom: each imports from its own layer and
+# those before it.
 LAUNCH_LAYERS = (
+    ("launch_process_starters",),
     ("launch.event", "launch.processes", "launch.launch_context", "launch.launch_description_entity"),
     ("launch.located",),
     ("launch.events", "launch.events.*", "launch.event_handler", "launch.condition", "launch.action"),
@@ -58,6 +60,7 @@ LAUNCH_LAYERS = (
     ("launch.yaml_frontend", "launch.yaml_frontend.*"),
     ("launch_ros", "launch_ros.*"),
     ("launch.yaml_frontend.launch_file",),  # it imports the actions of launch_ros
+    ("launch_pytest", "launch_pytest.*"),
 )
 
 

@@ -11,6 +11,8 @@ from itertools import count
 from types import SimpleNamespace
 from typing import Any, Protocol
 
+from launch_process_starters import provided_starter
+
 from launch.event import Event
 from launch.processes import ProcessStarter, SystemProcessStarter
 
@@ -47,7 +49,7 @@ class LaunchContext:
         self.environment = dict(os.environ)
         self.is_shutdown = False
         self.asyncio_loop: asyncio.AbstractEventLoop | None = None
-        self.process_starter: ProcessStarter = SystemProcessStarter()
+        self.process_starter: ProcessStarter = provided_starter() or SystemProcessStarter()
         self.process_numbers = count(1)  # the suffixes of the processes' names
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 import signal
 import threading
@@ -18,7 +19,7 @@ from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity, as_list
 from launch.located import add_place
-from launch.logging import get_logger, launch_config, log_launch_config
+from launch.logging import get_logger, launch_config, log_launch_config, redirect_log
 
 
 class _OnInclude(BaseEventHandler):
@@ -101,6 +102,11 @@ class LaunchService:
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """As `run`, in the running event loop and without signal handlers."""
+        write = self.__context.process_starter.write_log
+        with contextlib.nullcontext() if write is None else redirect_log(write):
+            return await self.__execute(shutdown_when_idle)
+
+    async def __execute(self, shutdown_when_idle: bool) -> int:
         context, status = self.__context, 0
         self.__task, self.__loop = asyncio.current_task(), asyncio.get_running_loop()
         context.asyncio_loop = self.__loop

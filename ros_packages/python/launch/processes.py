@@ -25,9 +25,14 @@ class Process(Protocol):
 
 
 class ProcessStarter(Protocol):
-    """Starts the processes of a launch file. pid: of the process that launch itself runs in."""
+    """Starts the processes of a launch file.
+
+    pid: of the process that launch itself runs in. write_log: receives launch's log lines (level, name of the
+    logger, text), instead of the screen and the log file; None for these.
+    """
 
     pid: int
+    write_log: Callable[[int, str, str], None] | None
 
     def find_bundled(self, package: str, executable: str) -> str | None:
         """The path of an executable that is bundled for a package, for `start`; None if there is none.
@@ -46,6 +51,8 @@ class SystemProcessStarter:
 
     bundled: returns the command that runs an executable which is bundled for a package, or None.
     """
+
+    write_log = None
 
     def __init__(self, bundled: Callable[[str, str], list[str] | None] | None = None) -> None:
         self.pid, self._bundled, self._commands = os.getpid(), bundled, {}

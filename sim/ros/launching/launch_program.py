@@ -15,6 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from launch_process_starters import providers
+
 from sim.ros.engine.program import Process
 from sim.ros.fibers.scheduler import engine
 from sim.ros.launching import files
@@ -74,18 +76,24 @@ def _check_launch_package() -> None:
 def _execute(description: Any) -> None:
     """Execute a launch description until all its programs have exited. Raises its first error."""
     from launch import LaunchService
-    from launch.logging import redirect_log
 
-    run = engine()
     path = list(sys.path)
-    with redirect_log(run.output.log):
-        service = LaunchService(noninteractive=True)
-        starter = service.context.process_starter = SimProcessStarter(run)
-        service.include_launch_description(description)
-        try:
-            asyncio.run(service.run_async())
-        finally:
-            sys.path[:] = path
+    service = LaunchService(noninteractive=True)
+    starter = service.context.process_starter
+    service.include_launch_description(description)
+    try:
+        asyncio.run(service.run_async())
+    finally:
+        sys.path[:] = path
     failure = starter.error or service.failure
     if failure is not None:
         raise failure
+
+
+def _starter_in_a_run() -> SimProcessStarter | None:
+    """The process starter of a launch context that a program of a run creates; None outside a run."""
+    run = engine()
+    return None if run is None else SimProcessStarter(run)
+
+
+providers.append(_starter_in_a_run)

@@ -37,11 +37,11 @@ def _unsupported(program: str) -> UnsupportedProgram:
 class SimProcessStarter:
     """Starts the processes of a launch file as programs of a run. error: of the first that can't be one.
 
-    pid: a sequential number of the launch file.
+    pid: a sequential number of the launch file. write_log: records launch's log lines.
     """
 
     def __init__(self, run: Any) -> None:
-        self.run, self.error, self._numbers = run, None, count(1)
+        self.run, self.error, self.write_log, self._numbers = run, None, run.output.log, count(1)
         self.pid = run.programs.index(run.current.process) + 1
         self._bundled: dict[str, Callable[[], None]] = {}
 

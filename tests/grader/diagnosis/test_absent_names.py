@@ -44,7 +44,7 @@ def missing_module(name: str) -> CallbackError:
         "rospy": "`rospy` is a package of ROS 1. ROS 2 has rclpy.",
         "tf": "`tf` is a package of ROS 1. ROS 2 has tf2_ros, and tf_transformations for tf.transformations.",
         "launch_testing": "`launch_testing` (tests of launch files) is a ROS package that the course does not "
-        "include. A test calls run(...) and looks at the recording.",
+        "include. launch_pytest is here and does the same for pytest.",
         "std_msg": "Python can't find a module `std_msg`: check its spelling. Message packages end in `_msgs` and "
         "`.msg`, as in `from std_msgs.msg import String`.",
     }.items(),

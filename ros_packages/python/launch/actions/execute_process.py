@@ -9,9 +9,9 @@ import traceback
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.process_details import EnvironmentVariables, expand_process_details
+from launch.actions.process_record import ProcessRecord
 from launch.actions.signal_escalation import escalate_signals
 from launch.event_handler import EventHandler, OnActionEventBase
 from launch.events import Shutdown
@@ -28,14 +28,15 @@ _SIGTERM = LaunchConfiguration("sigterm_timeout", default=5)
 _SIGKILL = LaunchConfiguration("sigkill_timeout", default=5)
 
 
-class ExecuteProcess(Action):
+class ExecuteProcess(ProcessRecord):
     """Starts a process.
 
     cmd: the command. prefix: put before it. name: its name in the log. cwd: its working directory. env: its
     whole environment; additional_env: variables added to it. output: "screen", "log" or "both"; "log" shows
-    stderr only. on_exit: entities to visit when it has exited. respawn: it is restarted whenever it exits,
-    `respawn_delay` seconds later, at most `respawn_max_retries` times. On shutdown it gets SIGINT, SIGTERM
-    `sigterm_timeout` seconds later, and SIGKILL `sigkill_timeout` seconds after that.
+    stderr only. cached_output: get_stdout() and get_stderr() return it. on_exit: entities to visit when it
+    has exited. respawn: it is restarted whenever it exits, `respawn_delay` seconds later, at most
+    `respawn_max_retries` times. On shutdown it gets SIGINT, SIGTERM `sigterm_timeout` seconds later, and
+    SIGKILL `sigkill_timeout` seconds after that.
     """
 
     def __init__(
@@ -62,8 +63,7 @@ class ExecuteProcess(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        if cached_output:
-            raise NotImplementedError("launch's cached_output is not supported here: write output='screen'.")
+        self._cache_output(cached_output)
         self.__cmd = [normalize_to_list_of_substitutions(word) for word in cmd]
         self.__prefix, self.__name, self.cwd = prefix, name, cwd
         self.env, self.additional_env = env, additional_env
@@ -73,28 +73,10 @@ class ExecuteProcess(Action):
         self.__format = output_format
         self.__on_exit, self.__respawn = on_exit, respawn
         self.__respawn_delay, self.__respawn_max_retries = respawn_delay, respawn_max_retries
-        self.__details: dict[str, Any] | None = None
         self.__process: Process | None = None
         self.__completed: asyncio.Future | None = None
         self.__shutdown: asyncio.Future | None = None
         self.__escalation: asyncio.Task | None = None
-
-    # -- properties ----------------------------------------------------------------------------------
-
-    @property
-    def process_description(self) -> ExecuteProcess:
-        """The object that has `final_name` and `final_cmd`."""
-        return self
-
-    @property
-    def final_name(self) -> str | None:
-        """The name in the log, with its number; None before the action is executed."""
-        return None if self.__details is None else self.__details["name"]
-
-    @property
-    def final_cmd(self) -> list[str] | None:
-        """The command with all substitutions performed; None before the action is executed."""
-        return None if self.__details is None else self.__details["cmd"]
 
     @property
     def name(self) -> Any:
@@ -105,11 +87,6 @@ class ExecuteProcess(Action):
     def cmd(self) -> list:
         """The command."""
         return self.final_cmd or self.__cmd
-
-    @property
-    def process_details(self) -> dict[str, Any] | None:
-        """Name, command, working directory, environment and process id; None before it is executed."""
-        return self.__details
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """As `Action`."""
@@ -147,7 +124,7 @@ class ExecuteProcess(Action):
         self.__task = context.asyncio_loop.create_task(self.__run(context))
 
     def __prepare(self, context: LaunchContext) -> None:
-        self.__details = {"action": self} | expand_process_details(
+        self._details = {"action": self} | expand_process_details(
             context, self.__cmd, self.__prefix, self.__name, self.cwd, self.env, self.additional_env
         )
         self.__respawn = value_of(context, self.__respawn, bool)
@@ -175,7 +152,7 @@ class ExecuteProcess(Action):
 
     async def __run_once(self, context: LaunchContext) -> bool:
         """Start the process and wait until it has exited. Returns False if it could not be started."""
-        details = self.__details
+        details = self._details
         cmd = " ".join(word for word in details["cmd"] if word.strip())
         if self.__log_cmd:
             self.__logger.info(f"process details: cmd='{cmd}', cwd='{details['cwd']}', custom_env?=True")
@@ -192,7 +169,7 @@ class ExecuteProcess(Action):
         self.__logger.info(f"process started with pid [{process.pid}]")
         context.emit_event_sync(ProcessStarted(**details))
         status = await process.wait()
-        self.__process = None
+        self.__process, self._return_code = None, status
         if status == 0:
             self.__logger.info(f"process has finished cleanly [pid {process.pid}]")
         else:
@@ -201,8 +178,9 @@ class ExecuteProcess(Action):
         return True
 
     def __on_output(self, context: LaunchContext, stream: str, line: str) -> None:
+        self._add_output(stream, line)
         fd = ("stdin", "stdout", "stderr").index(stream)
-        context.emit_event_sync(ProcessIO(text=f"{line}\n".encode(), fd=fd, **self.__details))
+        context.emit_event_sync(ProcessIO(text=f"{line}\n".encode(), fd=fd, **self._details))
         for write in self.__destinations[stream]:
             write(self.__format.format(line=line, this=self))
 
