@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-from collections.abc import Callable, Coroutine
+import sys
+from collections.abc import AsyncGenerator, Awaitable, Callable, Coroutine
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -62,11 +63,21 @@ def _run_generator(function: Callable, arguments: dict[str, Any], launch: Launch
 def _run_async_generator(function: Callable, arguments: dict[str, Any], launch: LaunchRun) -> None:
     steps, end = function(**arguments), object()
 
-    async def step() -> Any:
-        return await anext(steps, end)
+    async def step(waiting: Awaitable[Any]) -> Any:
+        return await waiting
 
-    if _run_coroutine(step(), launch) is end:
+    if _run_coroutine(step(_next_without_loop(steps, end)), launch) is end:
         raise RuntimeError(YIELDS_ONCE.format(name=function.__name__, how="never"))
     launch.shut_down()
-    if _run_coroutine(step(), launch) is not end:
+    if _run_coroutine(step(anext(steps, end)), launch) is not end:
         raise RuntimeError(YIELDS_ONCE.format(name=function.__name__, how="more than once"))
+
+
+def _next_without_loop(steps: AsyncGenerator[Any, None], end: Any) -> Awaitable[Any]:
+    """The first step of an asynchronous generator, which no event loop closes when it ends itself."""
+    hooks = sys.get_asyncgen_hooks()
+    sys.set_asyncgen_hooks(None, None)
+    try:
+        return anext(steps, end)
+    finally:
+        sys.set_asyncgen_hooks(*hooks)
