@@ -115,10 +115,10 @@ class Exercise:
                 raise ValueError(f"{where} comes after {before.name}, so list {before.name} first")
             if item.takes_measured and before.only and not (item.only and set(item.only) <= set(before.only)):
                 places = ", ".join(before.only)
-                raise ValueError(f"{where} is handed what {before.name} measures only in {places}")
+                raise ValueError(f"{where} receives what {before.name} measures only in {places}")
         strange = set(item.only) - {scenario.name for scenario in self.scenarios}
         if strange:
-            raise ValueError(f"{where} holds in {strange.pop()!r}, which is not a scenario of it")
+            raise ValueError(f"{where} applies to {strange.pop()!r}, which is not one of its scenarios")
         self.checks.append(item)
         return item
 

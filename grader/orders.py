@@ -121,4 +121,4 @@ def _with_note(verdict: Verdict, recording: Recording) -> Verdict:
     if verdict.status != "failed" or not recording.departures:
         return verdict
     begin = recording.departures[0].stamp
-    return replace(verdict, saw=f"in another order of what happened at {begin:.3g} s: {verdict.saw}")
+    return replace(verdict, saw=f"in another order of the events at {begin:.3g} s: {verdict.saw}")

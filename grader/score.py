@@ -82,7 +82,7 @@ class Score(float):
         """
         from grader.pictures import score_pictures
 
-        orders = [("Another order of what happened", found) for found in self.differences]
+        orders = [("Another order of the events", found) for found in self.differences]
         return [*score_pictures(self.verdicts, self.recordings), *orders]
 
     @cached_property

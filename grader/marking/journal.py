@@ -51,7 +51,7 @@ class Journal:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 file.seek(0)
-                other = f"process {file.read().strip()} is marking {self.folder.name} already"
+                other = f"process {file.read().strip()} is already marking {self.folder.name}"
                 raise CourseError(f"{other}: wait for it, or stop it with Ctrl-C") from None
             file.truncate(0)
             file.write(str(os.getpid()))

@@ -157,9 +157,9 @@ class Pool:
             except WireTimeout:
                 raise NotMarked(f"It took more than {self._longest(task):g} s.") from None
             except (WireError, OSError):
-                raise NotMarked(f"The judge's process broke off. {_ending(judge)}") from None
+                raise NotMarked(f"The judge's process ended unexpectedly. {_ending(judge)}") from None
             except ResultError as error:
-                raise NotMarked(f"The judge gave no result: {error}") from None
+                raise NotMarked(f"The judge returned no result: {error}") from None
 
     def _longest(self, task: MarkingTask) -> float:
         return SPARE_S + len(task.release.notebooks) * (self._time_limits.start + self._time_limits.notebook)

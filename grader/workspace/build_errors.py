@@ -68,4 +68,4 @@ def explain_build_error(built: Built, setup: str = "") -> tuple[str, str]:
         return built.problem, f"{where}: {raised[0][:MAX_LINE]}{comma}"
     lines = [line for line in built.output.splitlines() if line.strip()][-LINES:]
     output = " / ".join(line.strip()[:MAX_LINE] for line in lines)
-    return (f"{built.problem} It said last: {output}" if output else built.problem), NO_SOURCE
+    return (f"{built.problem} Its last output: {output}" if output else built.problem), NO_SOURCE

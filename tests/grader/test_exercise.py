@@ -577,13 +577,13 @@ def test_a_check_may_hold_in_some_scenarios_only():
     assert judged == [("everywhere", "yard"), ("in_the_yard", "yard"), ("everywhere", "room")]
 
     with pytest.raises(
-        ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"
+        ValueError, match=r"^exercise two: asks receives what in_the_yard measures only in wide$"
     ):
         two.check(1, after=in_the_yard)(asks)
     wide = two.check(1, after=in_the_yard, only="wide")(asks)
     assert two.checks[-1] is wide
     with pytest.raises(
-        ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is not a scenario of it$"
+        ValueError, match=r"^exercise two: unnamed applies to 'narrow', which is not one of its scenarios$"
     ):
         two.check(1, only="narrow")(unnamed)
 
@@ -593,7 +593,7 @@ def test_a_check_is_handed_what_another_one_measured_in_the_same_scenarios_or_in
     measures = three.check(1, only=("one", "two"))(unnamed)
     three.check(1, only="two", after=measures)(asks)
     three.check(1, only=("two", "one"), after=measures)(asks_again)
-    match = r"^exercise three: asks_more is handed what unnamed measures only in one, two$"
+    match = r"^exercise three: asks_more receives what unnamed measures only in one, two$"
     for only in ((), "three", ("one", "three")):
         with pytest.raises(ValueError, match=match):
             three.check(1, only=only, after=measures)(asks_more)

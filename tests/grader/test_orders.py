@@ -96,7 +96,7 @@ def test_the_feedback_of_a_node_that_is_right_by_luck_says_where_the_orders_part
     assert float(score) == 0
     (verdict,) = score.verdicts
     (difference, *_) = score.differences
-    assert verdict.saw.startswith("in another order of what happened at ")
+    assert verdict.saw.startswith("in another order of the events at ")
     assert 1 <= len(difference.other.departures) <= 3
     assert repr(difference).startswith("On a robot this order is possible, too: ")
     assert f"order={difference.other.order!r}" in repr(difference)

@@ -60,7 +60,7 @@ def test_what_is_forgotten_is_marked_again(course, journal, task):
 def test_two_cannot_mark_the_same_assignment_at_once(journal):
     with journal.hold_lock(), pytest.raises(CourseError) as refused, journal.hold_lock():
         pass
-    expected = f"process {os.getpid()} is marking {ASSIGNMENT} already: wait for it, or stop it with Ctrl-C"
+    expected = f"process {os.getpid()} is already marking {ASSIGNMENT}: wait for it, or stop it with Ctrl-C"
     assert str(refused.value) == expected
     with journal.hold_lock():
         pass

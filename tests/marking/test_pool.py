@@ -104,7 +104,7 @@ def test_a_judge_that_is_killed_twice_leaves_it_to_the_instructor(pool, waiting,
         for _ in range(2):
             gate.read_text()
             kill_judges(pool)
-        why = "The judge's process broke off. The process was killed from outside."
+        why = "The judge's process ended unexpectedly. The process was killed from outside."
         assert result.result() == Result("ann", "02_two", "0" * 64, "refused", f"{SORRY} {why}", flags=[why])
 
 
@@ -147,9 +147,9 @@ def odd_judges() -> Iterator[Sandbox]:
 @pytest.mark.parametrize(
     ("student", "why"),
     [
-        ("nonsense", "The judge gave no result: this is not a result of marking: 'notebooks'"),
+        ("nonsense", "The judge returned no result: this is not a result of marking: 'notebooks'"),
         ("refusal", "The test cell `x` can't be marked here."),
-        ("crash", "The judge's process broke off. The process crashed: Aborted."),
+        ("crash", "The judge's process ended unexpectedly. The process crashed: Aborted."),
     ],
 )
 def test_a_judge_that_gives_no_result_is_reported(pool, tasks, odd_judges, student, why, monkeypatch):

@@ -11,7 +11,7 @@ from sim.ros.remote import Wire, WireError
 
 MESSAGE = 6_000_000  # bytes
 SPARE_S = 60.0  # until the process is there, on a busy machine
-BROKE_OFF = "colcon build broke off."
+BROKE_OFF = "colcon build ended unexpectedly."
 
 
 def request_build(sock: socket.socket, sources: Sources, describe_end: Callable[[], str]) -> Built:

@@ -31,7 +31,8 @@ def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str
         source = course.source(assignment) / path.name
         if source.exists() and _content(notebook) != _content(_released(course, source)):
             file = path.relative_to(course.root)
-            raise CourseError(f"{file} is not what solutions/ gives now: {REMAKE}, or take solutions/ back")
+            raise CourseError(f"{file} is not what solutions/ produces now: {REMAKE}, or undo the changes to "
+                              "solutions/")
     for notebook, cell in sorted(found.keys() ^ known.keys()):
         here = "exercises/" if (notebook, cell) in found else "the gradebook"
         raise CourseError(f"the test cell {cell} of {notebook}.ipynb is only in {here}: {REMAKE}")

@@ -20,10 +20,10 @@ from grader.marking.task import TaskPool
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
-What is marked and has not changed since is not marked again, so the same command continues after a stop and
-marks what is submitted later. Results are stored in class/marking/; points go to nbgrader's gradebook,
-notebooks to class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
-`nbgrader generate_feedback`."""
+A submission that was marked and has not changed is not marked again, so the same command resumes after a
+stop and marks what is submitted later. Results are stored in class/marking/; points go to nbgrader's
+gradebook, notebooks to class/autograded/ and students' pages to class/feedback/, as after
+`nbgrader autograde` and `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # the exit status of shells
 USUAL_JOBS = len(usable_cores())
 
@@ -36,10 +36,10 @@ def parser() -> argparse.ArgumentParser:
     add("assignment", metavar="ASSIGNMENT")
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
     add("--jobs", type=_count, metavar="N", help="submissions at a time; default: as many as cores")
-    add("--force", action="store_true", help="mark again what is marked already")
+    add("--force", action="store_true", help="mark again what has already been marked")
     add("--resume", action="store_true", help="continue the last run of the assignment, with its options")
-    add("--unsafe", action="store_true", help="no sandbox: students' code can do all that you can")
-    add("--no-feedback", action="store_true", help="make no pages for students")
+    add("--unsafe", action="store_true", help="no sandbox: students' code can do anything that you can")
+    add("--no-feedback", action="store_true", help="don't make pages for students")
     add("--csv", default="", metavar="FILE", help="write the points there, a row per student and exercise")
     add("--html", default="", metavar="FILE", help="write the summary there, as a page")
     add("--dask", default="", metavar="ADDRESS", help="mark on the workers of this Dask scheduler")
@@ -81,11 +81,11 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     if not options.resume:
         return given
     if given != Settings(jobs=jobs, dask=options.dask):
-        advice = "give none beside it but --jobs and --dask"
+        advice = "give no others except --jobs and --dask"
         raise CourseError(f"--resume takes the options of the last run: {advice}")
     stored = Journal(course.journal(options.assignment)).settings()
     if stored is None:
-        raise CourseError(f"there is no run of {options.assignment} to continue: leave --resume out")
+        raise CourseError(f"there is no run of {options.assignment} to continue: leave out --resume")
     changed = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
     return replace(Settings(**stored), **changed)
 

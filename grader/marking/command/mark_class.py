@@ -35,7 +35,7 @@ from grader.marking.task import MarkingTask, TaskPool
 class Settings:
     """The settings of a run: plain data, stored for --resume.
 
-    students: only these, if any. force: mark again what is marked already. jobs: submissions at a time.
+    students: only these, if any. force: mark again what has already been marked. jobs: submissions at a time.
     unsafe: without the sandbox. feedback: make the students' pages. csv, html: files for the summary, or "".
     dask: the address of a Dask scheduler whose workers mark; "" to mark here.
     """
@@ -112,7 +112,7 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
 
 def _notes(course: Course, assignment: str, submissions: Mapping[str, Path]) -> Iterator[tuple[str, str]]:
     for name in course.hidden_students(assignment):
-        yield name, "the folder begins with a dot, and is left out: rename it"
+        yield name, "the folder's name begins with a dot, so it is skipped: rename it"
     for student, folder in submissions.items():
         if problem := time_problem(folder):
             yield student, problem
@@ -225,5 +225,5 @@ class _ClassRun:
         made = {name: digest for name, digest in digests.items() if name not in failed}
         self.journal.save_pages(known | made)
         for student in failed:
-            why = f"`nbgrader generate_feedback {assignment} --force --student {student}` says why"
+            why = f"`nbgrader generate_feedback {assignment} --force --student {student}` shows why"
             self.outcome.problems.append(f"the page of {student} could not be made: {why}")

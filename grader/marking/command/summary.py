@@ -167,7 +167,8 @@ def _by_hand(
     for key in worth:
         waiting = sum(key not in marked for marked in ran)
         if waiting:
-            yield Concern("/".join(key), f"{waiting} answers are marked by hand, in the formgrader")
+            answers = "1 answer has" if waiting == 1 else f"{waiting} answers have"
+            yield Concern("/".join(key), f"{answers} to be marked by hand, in the formgrader")
 
 
 def _concerns(result: Result) -> Iterator[Concern]:

@@ -27,7 +27,8 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
     yield from _table(summary)
     if summary.unstarted:
         counts = ", ".join(f"{exercise} {count}" for exercise, count in summary.unstarted.items())
-        yield from ("", *textwrap.wrap(f"Not started by so many of {len(summary.rows)}: {counts}", WIDTH))
+        text = f"Students, of {len(summary.rows)}, who have not started: {counts}"
+        yield from ("", *textwrap.wrap(text, WIDTH))
     if summary.mistakes:
         yield from ("", "Common mistakes")
     for mistake in summary.mistakes[:mistakes]:
@@ -36,7 +37,7 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
             indents = {"initial_indent": " " * 10, "subsequent_indent": " " * 12}
             yield from textwrap.wrap(f"{label}: {words}", WIDTH, **indents) if words else ()
     if summary.concerns:
-        yield from ("", "For you to look at")
+        yield from ("", "Needs your attention")
     for concern in summary.concerns:
         yield from textwrap.wrap(f"  {concern.whose}: {concern.what}", WIDTH, subsequent_indent="      ")
     if summary.times:

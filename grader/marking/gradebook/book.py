@@ -27,10 +27,10 @@ from grader.marking.result import CellResult, Result
 PATIENCE = 60.0  # seconds to wait for a locked SQLite file, if its address has no timeout
 NO_RESPONSE = "No response."  # nbgrader's own comment on an untouched answer
 ADVICE = {
-    "locked": "another program holds it: close the formgrader's page or wait, then mark again",
+    "locked": "another program has locked it: close the formgrader's page or wait, then mark again",
     "readonly": "it is read-only: mark as the user who owns it",
-    "full": "the disk is full: make room, then mark again",
-    "no such": "it was made by another nbgrader: copy it, run `nbgrader db upgrade`, then mark again",
+    "full": "the disk is full: free some space, then mark again",
+    "no such": "it is another nbgrader version's: copy it, run `nbgrader db upgrade`, then mark again",
 }
 
 

@@ -124,7 +124,7 @@ def _check_name(student: str, folder: Path) -> None:
     odd = sorted(FORBIDDEN & set(student))
     if plain == student and length <= MAX_NAME_BYTES and "\n" not in student and not odd:
         return
-    saw = f"{length} bytes" if plain == student else "bytes that are no UTF-8"
+    saw = f"{length} bytes" if plain == student else "bytes that aren't UTF-8"
     saw = f"with {' and '.join(odd)}" if odd else saw
     saw = "two lines" if "\n" in student else saw
     shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
@@ -153,9 +153,12 @@ def time_problem(folder: Path) -> str:
     try:
         when = _parse_time(text)
     except (ValueError, OverflowError):
-        return f"{saw}, which is no time, so nothing is late: write one such as 2026-03-01 18:00:00 +0100"
+        return (
+            f"{saw}, which is not a time, so nothing counts as late: write one such as 2026-03-01 18:00:00 "
+            "+0100"
+        )
     if when > datetime.now(UTC).replace(tzinfo=None) + A_YEAR:
-        return f"{saw}, which is far in the future, so nothing is late: correct it"
+        return f"{saw}, which is far in the future, so nothing counts as late: correct it"
     return ""
 
 

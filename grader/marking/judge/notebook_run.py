@@ -26,8 +26,8 @@ MAX_RESTARTS = 3
 NOT_RUN_BELOW = "The cells below were not run."
 RESTARTED = "It was started again after this cell, and the cells below were run."
 USED_UP = "Your program had used up the {}: the notebook was started again after this cell."
-NOT_RUN = "Not run for marking, where the tests look at what your nodes do."
-THREADS = "A thread of the notebook {} still ran when its last cell was over."
+NOT_RUN = "Not run when a class is marked: then the tests look at what your nodes do."
+THREADS = "A thread of the notebook {} was still running after its last cell."
 
 
 class NotebookRun:
@@ -163,16 +163,18 @@ class NotebookRun:
     def _course_error(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
         """The result after an error of the course: the instructor has to look."""
         last = traceback.format_exception_only(error)[-1].strip()
-        self._flag(cell, [f"could not be judged, by a mistake of the course: {last}"])
+        self._flag(cell, [f"could not be graded, because of a bug in the course: {last}"])
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
-        words = "This cell could not be judged, by a mistake of the course. Your instructor will look at it."
+        words = (
+            "This cell could not be graded, because of a bug in the course. Your instructor will look at it."
+        )
         return _text(words)
 
     def _not_judged(self, cell: NotebookNode, problem: str, shown: CellOutputs) -> list[dict[str, Any]]:
         """The result if the student's process could not serve the nodes; the cells below are run."""
-        self._flag(cell, [f"not judged, and worth a look. {problem.rstrip('.')}"])
+        self._flag(cell, [f"not graded, and worth a look. {problem.rstrip('.')}"])
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
-        words = f"No points: this could not be judged. {problem} Your instructor will look at it."
+        words = f"No points: this could not be graded. {problem} Your instructor will look at it."
         return [*_text(words), *self._written(shown)]
 
     def _written(self, shown: CellOutputs) -> list[dict[str, Any]]:

@@ -42,7 +42,7 @@ class DeadlineWire(Wire):
         """As `Wire.receive`."""
         left = self.deadline - monotonic()
         if left <= 0:
-            raise WireTimeout("the time is over")
+            raise WireTimeout("the time is up")
         limits = [limit for limit in (left, timeout) if limit is not None and limit < math.inf]
         return super().receive(min(limits, default=None))
 
@@ -92,7 +92,7 @@ class StudentSession:
         """
         self._wire.deadline = min(self.over, over or math.inf)
         if self._receive("It did not start.") != {"ready": True}:
-            raise StudentProcessGone("It began with something else than it should.")
+            raise StudentProcessGone("It did not begin as expected.")
         self._send(files=dict(files), packages=list(packages))
         self._listen(CellOutputs(DisplayRegistry()))
         self.over = over or monotonic() + self._time_limits.notebook
@@ -193,7 +193,7 @@ class StudentSession:
         except WireClosed:
             raise StudentProcessGone(self._describe_end() or "Its process ended.") from None
         except WireError:
-            raise StudentProcessGone("Its process said something that makes no sense.") from None
+            raise StudentProcessGone("Its process sent an invalid message.") from None
 
     def _too_late(self, reason: str) -> str:
         """The reason, unless the time of the whole notebook is over."""
@@ -204,7 +204,7 @@ class StudentSession:
 
 def _refusal(named: str, exercise: NodeJudge, tested: TestRun) -> str:
     if tested.score is not None or tested.error is not None or tested.problem:
-        return "graded more than once in one cell; the first time was judged"
+        return "graded more than once in one cell; only the first time counts"
     if named != exercise.name:
-        return f"handed its nodes to the exercise {named!r} instead of {exercise.name!r}"
+        return f"passed its nodes to the exercise {named!r} instead of {exercise.name!r}"
     return ""

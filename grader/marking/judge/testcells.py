@@ -45,8 +45,8 @@ def find_exercise(name: str) -> Any:
     except (ImportError, AttributeError):
         found = None
     if not isinstance(found, Exercise):
-        saw = f"A test cell grades {name}, and there is no such exercise."
-        raise UnknownTest(f"{saw} Is the release one of this course?")
+        saw = f"A test cell grades {name}, but there is no such exercise."
+        raise UnknownTest(f"{saw} Is the release from this course?")
     return found
 
 

@@ -23,15 +23,15 @@ ASIDE = ".exercises.part"
 REASONS = {  # what nbgrader's log has, and what to do
     "Cannot add or remove cells": (
         "students have submitted it, and solutions/{assignment} has other graded cells than the gradebook. "
-        "Take that change back, or give it another name and hand it out anew"
+        "Undo that change, or give the assignment a new name and hand it out again"
     ),
     "Cannot modify existing assignment": (
-        "students have submitted it, and solutions/{assignment} has other notebooks than the gradebook. "
-        "Take that change back, or give it another name and hand it out anew"
+        "students have submitted it, and solutions/{assignment} has other notebooks than the gradebook. Undo "
+        "that change, or give the assignment a new name and hand it out again"
     ),
     "readonly database": "the gradebook is read-only. Run this as the user who owns it",
-    "database is locked": "another program holds the gradebook. Close it, then run this again",
-    "disk is full": "the disk is full. Make room, then run this again",
+    "database is locked": "another program has locked the gradebook. Close it, then run this again",
+    "disk is full": "the disk is full. Free some space, then run this again",
 }
 
 
@@ -122,7 +122,7 @@ def differences(course: Path) -> list[str]:
 def _verdict(expected: bytes | None, found: bytes | None) -> str:
     if found is None:
         return "is missing"
-    return "has no source in solutions/" if expected is None else "is not what solutions/ gives now"
+    return "has no source in solutions/" if expected is None else "is not what solutions/ produces now"
 
 
 def _files(folder: Path) -> dict[str, bytes]:

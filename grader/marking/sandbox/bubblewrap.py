@@ -123,4 +123,4 @@ def forbidden(message: str, root: Path = Path("/")) -> SandboxMissing:
     way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
     if undo:
         way = f"Allow user namespaces with {' and '.join(undo)}"
-    return SandboxMissing(f"This system lets bubblewrap make no sandbox ({message}). {way}, {UNSAFE}.")
+    return SandboxMissing(f"This system doesn't let bubblewrap make a sandbox ({message}). {way}, {UNSAFE}.")

@@ -57,7 +57,7 @@ class WarmProcess:
             errors.seek(0)
             tail = errors.read()[-STDERR_BYTES:].decode(errors="replace").strip()
             raise bubblewrap.forbidden(tail) if tail.startswith("bwrap: ") else SandboxFailed(
-                f"The sandbox ended before it was ready. It said last: {tail or 'nothing'}"
+                f"The sandbox ended before it was ready. Its last output: {tail or 'nothing'}"
             )
         [self._pidfd] = descriptors
         report = json.loads(answer)
@@ -79,7 +79,7 @@ class WarmProcess:
         if descriptors:
             return ConfinedProcess(descriptors[0], parent_end)
         parent_end.close()
-        reason = json.loads(answer)["failed"] if answer else "it gave no answer"
+        reason = json.loads(answer)["failed"] if answer else "it did not answer"
         raise SandboxFailed(f"The sandbox could not start a process: {reason}")
 
     def alive(self, wait_s: float = 0.0) -> bool:

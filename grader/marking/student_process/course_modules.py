@@ -73,7 +73,9 @@ class ClosedModules(MetaPathFinder):
 
     def _refuse(self, name: str) -> NoReturn:
         there = " and ".join(["grader", *self._packages])
-        text = f"No module named {name!r} when a class is marked: of the grader, notebooks can import {there}"
+        text = (
+            f"No module named {name!r} when a class is marked: from the grader, notebooks can import {there}"
+        )
         raise ModuleNotFoundError(text, name=name)
 
 

@@ -32,7 +32,7 @@ def _format_chain(
     before = summary.__cause__ or (None if summary.__suppress_context__ else summary.__context__)
     if before is not None and most > 1:
         yield from _format_chain(before, cells, most - 1)
-        yield "This led to, or came while dealing with it:"
+        yield "The next error was caused by this one, or came while handling it:"
     own = [frame for frame in summary.stack if frame.filename in cells]
     if len(own) > LINES:
         yield f"... {len(own) - LINES} more lines"

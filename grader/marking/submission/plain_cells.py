@@ -62,7 +62,7 @@ def read_notebook(data: bytes, file: str) -> PlainNotebook:
     content, repairs = read_json_object(data, file)
     found = list(_raw_cells(content))
     if not found and not isinstance(content.get("cells"), list):
-        problem = f"{quote(file)} holds no cells; expected a notebook."
+        problem = f"{quote(file)} contains no cells; expected a notebook."
         raise Unusable(f"{problem} Hand in the notebook's own file, as JupyterLab saves it.")
     if len(found) > MAX_CELLS:
         problem = f"{quote(file)} has {len(found)} cells; at most {MAX_CELLS} can be marked."
@@ -75,7 +75,7 @@ def read_notebook(data: bytes, file: str) -> PlainNotebook:
     cells, odd = _cells(found)
     repairs += odd
     if (total := sum(len(cell.text) for cell in cells)) > MAX_CHARS:
-        problem = f"The cells of {quote(file)} hold {total / 1e6:.1f} million characters of text;"
+        problem = f"The cells of {quote(file)} contain {total / 1e6:.1f} million characters of text;"
         raise Unusable(f"{problem} at most {MAX_CHARS / 1e6:g} million can be marked. Make them shorter.")
     return PlainNotebook(cells, repairs)
 
@@ -132,7 +132,7 @@ def _kind(raw: Mapping[str, Any], oddities: list[str], number: int) -> str:
     if kind in KINDS:
         return kind
     saw = f"the unknown type {quote(kind)}" if isinstance(kind, str) else "no type"
-    oddities.append(f"Cell {number} of the notebook has {saw}; it was read all the same.")
+    oddities.append(f"Cell {number} of the notebook has {saw}; it was read anyway.")
     return ""
 
 
@@ -142,12 +142,12 @@ def _text(raw: Mapping[str, Any], oddities: list[str], number: int) -> str:
     if not all(isinstance(line, str) for line in lines):
         odd = next(line for line in lines if not isinstance(line, str))
         saw = f"{kind_of_value(odd)} for its text"
-        oddities.append(f"Cell {number} of the notebook holds {saw}; that was left out.")
+        oddities.append(f"Cell {number} of the notebook contains {saw}; that was left out.")
         lines = [line for line in lines if isinstance(line, str)]
     text = "".join(lines)
     if len(text) > MAX_CELL_CHARS:
         saw = f"{len(text) / 1e6:.1f} million characters, more than can be run"
-        oddities.append(f"Cell {number} of the notebook holds {saw}; it counts as empty.")
+        oddities.append(f"Cell {number} of the notebook contains {saw}; it counts as empty.")
         return ""
     text = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
     return text.encode(errors="replace").decode()  # half a character, as only escapes can make it

@@ -26,7 +26,7 @@ def read_json_object(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]
     Raises Unusable, and nothing else.
     """
     if not data.strip(b"\0 \t\r\n"):
-        saw = "is empty" if not data else "holds nothing but zeros and blanks"
+        saw = "is empty" if not data else "contains nothing but zeros and blanks"
         raise Unusable(f"{quote(file)} {saw}; expected a notebook. {AGAIN}")
     if data.startswith(b"PK\x03\x04"):
         problem = f"{quote(file)} is a zip archive; expected a notebook."
@@ -45,11 +45,11 @@ def read_json_object(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]
     except (ValueError, RecursionError) as error:
         value, end = {"nbformat": 4, "cells": _cells_before(text, error, decoder, file, repairs)}, len(text)
     if text[end:].strip():
-        repairs.append("After its end, the notebook's file went on with something else; that was left out.")
+        repairs.append("The notebook's file contained something else after its end; that was left out.")
     if twice:
         repairs.append(f"The notebook's file had {quote(twice[0])} twice in one place; the last was read.")
     if not isinstance(value, dict):
-        raise Unusable(f"{quote(file)} holds JSON, but no notebook. {AGAIN}")
+        raise Unusable(f"{quote(file)} contains JSON, but not a notebook. {AGAIN}")
     return value, repairs
 
 
@@ -57,7 +57,9 @@ def _decoded(data: bytes) -> tuple[str, list[str]]:
     encoding = json.detect_encoding(data)
     if not encoding.startswith("utf-8"):
         name = encoding[:6].upper()
-        return data.decode(encoding, "replace"), [f"The notebook's file was saved as {name}; it was read so."]
+        return data.decode(encoding, "replace"), [
+            f"The notebook's file was saved as {name}; it was read as such."
+        ]
     repairs = []
     if data.startswith(codecs.BOM_UTF8):
         repairs.append("The notebook's file began with a byte order mark; it was read without.")
@@ -108,7 +110,7 @@ def _cells_before(
         cells.append(cell)
         position = BETWEEN.match(text, position).end()
     if not cells:
-        raise Unusable(f"{quote(file)} is damaged from its beginning on; expected a notebook. {AGAIN}")
+        raise Unusable(f"{quote(file)} is damaged from its beginning; expected a notebook. {AGAIN}")
     for before in left_out:
         where = f"after cell {before}" if before else "in its first cell"
         repairs.append(f"The notebook's file is damaged {where}; the next cell that can be read was marked.")
@@ -133,12 +135,15 @@ def _next_cell(text: str, position: int, decoder: json.JSONDecoder) -> tuple[dic
 
 def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
     if isinstance(error, RecursionError):
-        raise Unusable(f"{quote(file)} holds tables in tables without end; expected a notebook. {AGAIN}")
+        raise Unusable(f"{quote(file)} contains endlessly nested tables; expected a notebook. {AGAIN}")
     if all(mark.search(text) for mark in MERGE_MARKS):
-        problem = f"{quote(file)} holds git's merge marks (`<<<<<<<`), so two versions of it."
+        problem = (
+            f"{quote(file)} contains git's merge conflict markers (`<<<<<<<`), which means two versions of "
+            "it."
+        )
         raise Unusable(f"{problem} Choose one, open it in JupyterLab, save it and hand it in again.")
     if WEB_PAGE.match(text):
-        problem = f"{quote(file)} holds a web page, maybe one that asks for a password; expected a notebook."
+        problem = f"{quote(file)} contains a web page, perhaps a login page; expected a notebook."
         raise Unusable(f"{problem} {AGAIN}")
     if not text.startswith("{"):  # it is not quoted: it may be a link to a file with a secret
         problem = f"{quote(file)} is not a notebook: expected JSON, beginning with `{{`, saw something else."

@@ -21,8 +21,8 @@ REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The cells {} were in the notebook more than once; the last ones with an answer were marked.",
         ),
         "answer of another type": (
-            "The type of the cell {} was changed; its text was taken all the same.",
-            "The types of the cells {} were changed; their texts were taken all the same.",
+            "The type of the cell {} was changed; its text was used anyway.",
+            "The types of the cells {} were changed; their texts were used anyway.",
         ),
         "answer missing": (
             "The answer {} was missing; an empty cell took its place.",
@@ -41,12 +41,12 @@ REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The test cells {} were missing; the instructor's own were run.",
         ),
         "moved": (
-            "The cell {} had left its place in the assignment; it was run there.",
-            "The cells {} had left their places in the assignment; they were run there.",
+            "The cell {} was not in its place in the assignment; it was run there.",
+            "The cells {} were not in their places in the assignment; they were run there.",
         ),
         "test older": (
-            "The test cell {} came from another version of the assignment; the present one was run.",
-            "The test cells {} came from another version of the assignment; the present ones were run.",
+            "The test cell {} came from another version of the assignment; the current one was run.",
+            "The test cells {} came from another version of the assignment; the current ones were run.",
         ),
         "code missing": (
             "The cell {} was missing; the one that was handed out was run.",
@@ -70,8 +70,8 @@ FLAGS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The test cells {} were tagged `skip-execution`; they were run.",
         ),
         "name of another": (
-            "The cell {} bore the name of another; it was known by its id.",
-            "The cells {} bore the names of others; they were known by their ids.",
+            "The cell {} had the name of another; it was recognized by its id.",
+            "The cells {} had the names of others; they were recognized by their ids.",
         ),
     }
 )

@@ -39,14 +39,14 @@ def read_notebooks(submitted: SubmittedFiles, release: Release) -> SubmittedNote
             found.missing[name] = str(reason)
             continue
         if used[name] != name + SUFFIX:
-            found.repairs.append(f"{quote(used[name])} was taken for {quote(name + SUFFIX)}.")
+            found.repairs.append(f"{quote(used[name])} was used as {quote(name + SUFFIX)}.")
     if not found.notebooks:
         raise Unusable(" ".join(found.missing.values()))
     if isinstance(submitted.workspace, str):
-        found.repairs.append(f"No file of your workspace was taken. {submitted.workspace}")
+        found.repairs.append(f"No file of your workspace was used. {submitted.workspace}")
     taken = {*used.values(), WORKSPACE} if submitted.workspace else set(used.values())
     if left := list(_unused(submitted.entries, taken, release)):
-        found.repairs.append(f"Handed in beside the notebook and not used: {list_names(left)}.")
+        found.repairs.append(f"Handed in alongside the notebook and not used: {list_names(left)}.")
     return found
 
 

@@ -150,7 +150,7 @@ def _oddities(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
     elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name in METHODS:
         yield f"defines `{node.name}`, which {METHODS[node.name]}"
     elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (f"speaks of `{word}`" for word in SUSPICIOUS_TEXTS if word in node.value)
+        yield from (f"mentions `{word}`" for word in SUSPICIOUS_TEXTS if word in node.value)
 
 
 def _imports(module: str) -> Iterator[str]:

@@ -79,7 +79,7 @@ def _file(folder: Path, path: str) -> Iterator[int]:
             _refuse_all_but_files(path, os.fstat(descriptor).st_mode)
         except OSError as error:
             problem = f"{quote(path)} cannot be read ({error.strerror})."
-            raise Unusable(f"{problem} Hand in a file that may be read.") from None
+            raise Unusable(f"{problem} Hand in a file that can be read.") from None
         yield descriptor
 
 

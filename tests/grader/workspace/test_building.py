@@ -73,7 +73,7 @@ def test_where_what_was_installed_is_refused_that_says_it_all():
 
 def test_without_a_known_reason_the_last_lines_are_reported():
     built = Built(output="one\n\n two\n", problem="colcon build failed.")
-    assert explain_build_error(built)[0] == "colcon build failed. It said last: one / two"
+    assert explain_build_error(built)[0] == "colcon build failed. Its last output: one / two"
 
 
 def test_what_another_process_built_is_looked_at():

@@ -12,7 +12,10 @@ from sim.ros.remote import Wire
 from tests.patience import PATIENCE
 from tests.students.packages.greeter import RIGHT
 
-FAILED = r"colcon build (failed\.|broke off\. The process (needed|had) more than the .* that are allowed\.)"
+FAILED = (
+    r"colcon build (failed\.|ended unexpectedly\. "
+    r"The process (needed|had) more than the .* that are allowed\.)"
+)
 SETUP = "greeter/setup.py"
 ESCAPES = """
 import ctypes, os, socket, subprocess, sys
@@ -135,4 +138,4 @@ def test_a_process_that_is_gone_is_reported_with_its_end():
     parent_end, child_end = socket.socketpair()
     child_end.close()
     problem = request_build(parent_end, {}, lambda: "It was killed.").problem
-    assert problem == "colcon build broke off. It was killed."
+    assert problem == "colcon build ended unexpectedly. It was killed."

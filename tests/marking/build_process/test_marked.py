@@ -72,7 +72,7 @@ def test_what_a_cell_writes_goes_before_what_was_handed_in(results):
 def test_a_link_costs_the_files_and_is_reported(results):
     assert (results["link"].points, results["link"].verdict) == (0.0, "repaired")
     assert results["link"].repairs == [
-        "No file of your workspace was taken. `ws/src/greeter/more` is a link. "
+        "No file of your workspace was used. `ws/src/greeter/more` is a link. "
         "Only files are used: put the file itself there."
     ]
 

@@ -97,8 +97,11 @@ def test_an_assignment_that_the_gradebook_does_not_know_says_what_to_run(course)
 
 def test_a_release_that_is_not_what_its_source_gives_is_named(course):
     edit(course.source(ASSIGNMENT) / "nodes.ipynb", test_line="nodes.line.grade(Line, Counter)")
-    file = f"exercises/{ASSIGNMENT}/nodes.ipynb is not what solutions/ gives now"
-    assert problem(check_release, course, ASSIGNMENT, KNOWN) == f"{file}: {REMAKE}, or take solutions/ back"
+    file = f"exercises/{ASSIGNMENT}/nodes.ipynb is not what solutions/ produces now"
+    assert (
+        problem(check_release, course, ASSIGNMENT, KNOWN)
+        == f"{file}: {REMAKE}, or undo the changes to solutions/"
+    )
     release(course.root)
     check_release(course, ASSIGNMENT, KNOWN)
 

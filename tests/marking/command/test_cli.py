@@ -78,9 +78,9 @@ def refused(command, capsys, *options):
 
 
 def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
-    nothing = f"Not marked: there is no run of {ASSIGNMENT} to continue: leave --resume out.\n"
+    nothing = f"Not marked: there is no run of {ASSIGNMENT} to continue: leave out --resume.\n"
     assert refused(command, capsys, "--resume") == nothing
-    none = "give none beside it but --jobs and --dask"
+    none = "give no others except --jobs and --dask"
     beside = f"Not marked: --resume takes the options of the last run: {none}.\n"
     assert refused(command, capsys, "--resume", "--force") == beside
 

@@ -231,7 +231,7 @@ def test_a_page_that_fails_is_named_and_the_others_are_made(course, pool):
     pool.change = broken
     outcome = run(course, pool, Settings())
     (problem,) = outcome.problems
-    why = f"`nbgrader generate_feedback {ASSIGNMENT} --force --student bob` says why"
+    why = f"`nbgrader generate_feedback {ASSIGNMENT} --force --student bob` shows why"
     assert problem == f"the page of bob could not be made: {why}"
     assert (course.feedback("eve", ASSIGNMENT) / "nodes.html").exists()
     pool.change = result

@@ -63,8 +63,8 @@ def test_the_text_says_points_mistakes_what_to_look_at_and_times(results):
         "          Saw: 2 lines in 8 s\n"
         "          Hint: Look at the timer.\n"
         "\n"
-        "For you to look at\n"
-        "  nodes/essay: 4 answers are marked by hand, in the formgrader\n"
+        "Needs your attention\n"
+        "  nodes/essay: 4 answers have to be marked by hand, in the formgrader\n"
         "  bob: The test cell `x` was edited.\n"
         "  carl: a check of nodes/test_line is broken (KeyError: 'odom'): set the points by hand\n"
         "  eve: refused: `nodes.ipynb` is empty.\n"
@@ -97,7 +97,7 @@ def test_who_has_not_begun_an_exercise_has_made_no_mistake_in_it(results):
     summary = summarize("01_class", WORTH, results)
     assert summary.unstarted == {"line": 1}
     assert [(one.exercise, one.students) for one in summary.mistakes] == [("line", 2), ("counter", 1)]
-    assert "\n\nNot started by so many of 5: line 1\n\nCommon mistakes\n" in as_text(summary)
+    assert "\n\nStudents, of 5, who have not started: line 1\n\nCommon mistakes\n" in as_text(summary)
     assert "<h2>Not started</h2>" in as_page(summary)
 
 
@@ -211,7 +211,8 @@ class Page(HTMLParser):
 
 def test_the_page_says_the_same_and_loads_and_runs_nothing(results):
     page = Page(as_page(summarize("01_class", WORTH, results)))
-    assert {"Common mistakes", "For you to look at", "Times", "Look at the timer.", "5.5"} <= set(page.words)
+    titles = {"Common mistakes", "Needs your attention", "Times"}
+    assert titles | {"Look at the timer.", "5.5"} <= set(page.words)
     assert page.tags <= {
         "html", "head", "meta", "title", "style", "body", "h1", "h2", "p",
         "table", "thead", "tbody", "tr", "th", "td",
@@ -246,7 +247,8 @@ def test_points_by_hand_comments_and_penalties_are_in_table_csv_and_page(results
     assert first.split() == ["student", "counter", "line", "essay", "total", "late", "verdict", "flags"]
     assert second.split() == ["anna", "4", "2", "4.5", "9", "2.0", "d:", "-1.5", "marked"]
     assert third.startswith("x" * 39 + "…  ") and len(third) < 100
-    reported = "For you to look at\n  .hidden: is left out\n  nodes/essay: 1 answers are marked by hand"
+    concerns = "  .hidden: is left out\n  nodes/essay: 1 answer has to be marked by hand"
+    reported = f"Needs your attention\n{concerns}"
     assert reported in as_text(summary)
     rows = list(csv.DictReader(io.StringIO(as_csv("01_class", results, STANDINGS))))
     about = ("cell", "points", "by_hand", "comment", "days_late", "penalty")

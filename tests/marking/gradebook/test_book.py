@@ -198,7 +198,7 @@ def test_a_gradebook_that_another_program_holds_is_left_alone(course, task, file
     course.directory.db_url += "?timeout=0.05"  # seconds of patience
     other = sqlite3.connect(file)
     other.execute("BEGIN EXCLUSIVE")
-    advice = "another program holds it: close the formgrader's page or wait, then mark again"
+    advice = "another program has locked it: close the formgrader's page or wait, then mark again"
     expected = f"the gradebook {course.database} can't be used (database is locked): {advice}"
     assert refused(course, task) == expected
     other.rollback()
@@ -222,7 +222,7 @@ def test_a_gradebook_on_a_full_disk_is_reported(course, task):
         entry = JournalEntry("ab12", refused)
         with pytest.raises(GradebookError) as failed:
             book.write(entry.result, marked_notebooks(entry, task.release), None)
-    expected = "can't be used (database or disk is full): the disk is full: make room, then mark again"
+    expected = "can't be used (database or disk is full): the disk is full: free some space, then mark again"
     assert str(failed.value).endswith(expected)
     assert gradebook(course) == {}
 
@@ -232,7 +232,7 @@ def test_a_gradebook_of_another_nbgrader_says_what_to_run(course, task, file):
     with sqlite3.connect(file) as other:
         other.execute("CREATE TABLE student (name TEXT)")
     assert refused(course, task).endswith(
-        "): it was made by another nbgrader: copy it, run `nbgrader db upgrade`, then mark again"
+        "): it is another nbgrader version's: copy it, run `nbgrader db upgrade`, then mark again"
     )
 
 

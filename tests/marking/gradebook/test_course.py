@@ -46,7 +46,7 @@ def test_another_folder_structure_is_understood(course):
 @pytest.mark.parametrize(
     ("name", "shown", "saw"),
     [
-        (b"ann\xff", "ann?", "bytes that are no UTF-8"),
+        (b"ann\xff", "ann?", "bytes that aren't UTF-8"),
         (b"a" * 201, "a" * 60 + "...", "201 bytes"),
         (b"ann\nbob", "ann\nbob", "two lines"),
     ],
@@ -107,8 +107,8 @@ def test_an_offset_is_in_hours_and_not_in_seconds(tmp_path, text, hour):
     assert time_problem(tmp_path) == ""
 
 
-NO_TIME = "which is no time, so nothing is late: write one such as 2026-03-01 18:00:00 +0100"
-FAR = "which is far in the future, so nothing is late: correct it"
+NO_TIME = "which is not a time, so nothing counts as late: write one such as 2026-03-01 18:00:00 +0100"
+FAR = "which is far in the future, so nothing counts as late: correct it"
 
 
 @pytest.mark.parametrize(

@@ -83,10 +83,10 @@ def test_a_due_date_that_is_set_or_moved_after_marking_counts(course, again):
 def test_hidden_folders_and_times_that_are_none_are_noted(course, again):
     course.submitted(".hidden", ASSIGNMENT).mkdir(parents=True)
     (course.submitted("bob", ASSIGNMENT) / "timestamp.txt").write_text("soon")
-    why = "so nothing is late: write one such as 2026-03-01 18:00:00 +0100"
+    why = "so nothing counts as late: write one such as 2026-03-01 18:00:00 +0100"
     assert again()[0].notes == [
-        (".hidden", "the folder begins with a dot, and is left out: rename it"),
-        ("bob", f"timestamp.txt has 'soon', which is no time, {why}"),
+        (".hidden", "the folder's name begins with a dot, so it is skipped: rename it"),
+        ("bob", f"timestamp.txt has 'soon', which is not a time, {why}"),
     ]
 
 

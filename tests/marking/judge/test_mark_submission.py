@@ -193,7 +193,7 @@ grader.exercise.Exercise.grade = grade
         ("print('8.0')", []),
         (
             "return honest(topics.temperature, *nodes)",
-            ["handed its nodes to the exercise 'temperature' instead of 'greeting'"],
+            ["passed its nodes to the exercise 'temperature' instead of 'greeting'"],
         ),
     ],
 )
@@ -209,7 +209,7 @@ def test_who_grades_twice_in_a_cell_is_judged_by_the_first_time(marked):
     result = marked(greeting_see=TRICK.format(body=f"honest(self, {bad})\n    return honest(self, *nodes)"))
     assert points(result)["greeting-points"] < 8
     assert result.flags[-2] == (
-        "The test cell `greeting-points`: graded more than once in one cell; the first time was judged."
+        "The test cell `greeting-points`: graded more than once in one cell; only the first time counts."
     )
 
 
@@ -225,7 +225,7 @@ def test_a_thread_that_is_left_over_costs_nothing_and_is_flagged(marked):
     result = marked(greeting_see=f"{thread}threading.Thread(target=haunt, daemon=True).start()")
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
     assert result.verdict == "marked"
-    assert result.flags == ["A thread of the notebook `two` still ran when its last cell was over."]
+    assert result.flags == ["A thread of the notebook `two` was still running after its last cell."]
 
 
 def test_a_check_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch):
@@ -244,7 +244,7 @@ def test_a_check_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch)
         "The test cell `greeting-points`: the check 'greets' broke: IndexError: list index out of range."
     ]
     shown = cell(result, "greeting-points")["outputs"][-1]["data"]["text/html"]
-    assert "Your instructor decides about its points." in shown
+    assert "Your instructor decides on its points." in shown
     assert "IndexError" not in shown
 
 
@@ -257,11 +257,11 @@ def test_a_judge_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch)
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
     assert all(cell.needs_look for cell in result.notebooks[0].cells)
     assert result.flags[0] == (
-        "The test cell `greeting-points`: could not be judged, by a mistake of the course: "
+        "The test cell `greeting-points`: could not be graded, because of a bug in the course: "
         "IndexError: list index out of range."
     )
     assert text(result, "greeting-points") == (
-        "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"
+        "This cell could not be graded, because of a bug in the course. Your instructor will look at it.\n"
     )
 
 
@@ -347,10 +347,10 @@ def test_a_notebook_without_file_descriptors_goes_on(marked):
     why = "The nodes could not be run: OSError: Too many open files"
     assert (result.verdict, result.reason) == ("marked", "")
     assert result.flags == [
-        f"The test cell `greeting-points`: not judged, and worth a look. {why}.",
+        f"The test cell `greeting-points`: not graded, and worth a look. {why}.",
     ]
     assert text(result, "greeting-points") == (
-        f"No points: this could not be judged. {why}. Your instructor will look at it.\n"
+        f"No points: this could not be graded. {why}. Your instructor will look at it.\n"
     )
 
 
@@ -378,11 +378,11 @@ def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked,
     result = marked()
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
     assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
-    message = "could not be judged, by a mistake of the course: RuntimeError: an end that is gone."
+    message = "could not be graded, because of a bug in the course: RuntimeError: an end that is gone."
     assert result.flags == [f"The test cell `{name}`: {message}" for name in points(result)]
     assert result.verdict == "marked"
     assert text(result, "greeting-points") == (
-        "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"
+        "This cell could not be graded, because of a bug in the course. Your instructor will look at it.\n"
     )
 
 
@@ -396,7 +396,7 @@ FollowerLink.take_outgoing = lambda self: [["dance"]]
     result = marked(greeting=forging, temperature=honest, greeting_see="")
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.flags[-1] == (
-        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The test cell `greeting-points`: not graded, and worth a look. "
         "The process with the nodes sent an event of unknown kind."
     )
 
@@ -413,7 +413,7 @@ FollowerLoop._answer = _answer
     result = marked(greeting=leaving, temperature=honest, greeting_see="")
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.flags[-1] == (
-        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The test cell `greeting-points`: not graded, and worth a look. "
         "The nodes could not be run: KeyboardInterrupt: past the node."
     )
 

@@ -83,5 +83,5 @@ def test_an_exercise_that_is_not_there_is_named(name):
     with pytest.raises(UnknownTest) as refused:
         find_exercise(name)
     assert str(refused.value) == (
-        f"A test cell grades {name}, and there is no such exercise. Is the release one of this course?"
+        f"A test cell grades {name}, but there is no such exercise. Is the release from this course?"
     )

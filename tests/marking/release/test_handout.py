@@ -123,7 +123,7 @@ def test_of_the_commands_students_have_the_league(folder):
     assert (output("mark", "01_nodes").returncode, output("mark", "01_nodes").stderr) == (2, usage)
     expected = "there is no notebook robot.ipynb"
     assert output("league", "robot.ipynb", "--assignment", "01_nodes").stderr == f"Not played: {expected}.\n"
-    expected = "only instructors have what a class handed in: name your notebooks"
+    expected = "only instructors have a class's submissions: name your notebooks"
     assert output("league").stderr == f"Not played: {expected}.\n"
 
 

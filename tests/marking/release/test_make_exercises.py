@@ -72,7 +72,7 @@ def test_every_kind_of_difference_is_named(tiny_course, monkeypatch, capsys):
     assert capsys.readouterr().out == (
         "exercises/01_tiny/map.toml is missing\n"
         "exercises/01_tiny/notes.txt has no source in solutions/\n"
-        "exercises/01_tiny/tiny.ipynb is not what solutions/ gives now\n"
+        "exercises/01_tiny/tiny.ipynb is not what solutions/ produces now\n"
         "Run `make exercises` and commit what it changes.\n"
     )
 
@@ -102,7 +102,7 @@ def test_a_release_that_fails_stops_with_what_nbgrader_said(tiny_course, monkeyp
 
 ASK = "exercises/01_class is as it was: "
 OTHER = "students have submitted it, and solutions/01_class has other"
-ANEW = "Take that change back, or give it another name and hand it out anew"
+ANEW = "Undo that change, or give the assignment a new name and hand it out again"
 
 
 def more_cells(course):

@@ -39,7 +39,7 @@ def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespace
     done = in_a_system_with(namespaces, attempt)
     error = done.stderr.splitlines()[-1]
     assert error.startswith(
-        "grader.marking.errors.SandboxMissing: This system lets bubblewrap make no sandbox ("
+        "grader.marking.errors.SandboxMissing: This system doesn't let bubblewrap make a sandbox ("
     )
     way = "Allow user namespaces with `sudo sysctl user.max_user_namespaces=10000`"
     if namespaces:
@@ -78,7 +78,7 @@ def test_the_way_out_depends_on_the_system(tmp_path, files, way):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text + "\n")
     assert str(bubblewrap.forbidden("bwrap: No permission", tmp_path)) == (
-        f"This system lets bubblewrap make no sandbox (bwrap: No permission). {way}{UNSAFE}"
+        f"This system doesn't let bubblewrap make a sandbox (bwrap: No permission). {way}{UNSAFE}"
     )
 
 
@@ -87,7 +87,7 @@ def test_a_warm_process_that_dies_early_is_reported_with_its_last_words(tmp_path
     (tmp_path / "quitter.py").write_text("import os; os.write(2, b'no more'); os._exit(1)")
     with pytest.raises(SandboxFailed) as caught:
         Sandbox("quitter:main", preload=(), imports=[tmp_path], unsafe=unsafe)
-    assert str(caught.value) == "The sandbox ended before it was ready. It said last: no more"
+    assert str(caught.value) == "The sandbox ended before it was ready. Its last output: no more"
 
 
 def test_a_file_to_read_that_is_not_there_is_named(tmp_path):

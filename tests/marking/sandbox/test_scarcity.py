@@ -74,7 +74,7 @@ def test_a_process_that_starts_too_late_is_given_up(make_commanded, monkeypatch)
             patched.setattr(warm_process, "START_S", 0.01)
             with pytest.raises(SandboxFailed) as caught:
                 make_commanded(box)
-            assert str(caught.value) == "The sandbox could not start a process: it gave no answer"
+            assert str(caught.value) == "The sandbox could not start a process: it did not answer"
             assert before.ask("answer = 'alive'") == "alive"
         after = make_commanded(box)
         assert [commanded.ask("answer = 'alive'") for commanded in (before, after)] == ["alive", "alive"]

@@ -194,8 +194,8 @@ def test_right_functions_and_reference_data_are_not_there(start_student, topic):
 def test_an_import_that_is_refused_says_what_can_be_imported(start_student):
     (output,) = start_student(packages=["grader.exercises.topics"]).run("import grader.exercises.safety")
     assert output["evalue"] == (
-        "No module named 'grader.exercises.safety' when a class is marked: of the grader, notebooks can "
-        "import grader and grader.exercises.topics"
+        "No module named 'grader.exercises.safety' when a class is marked: from the grader, "
+        "notebooks can import grader and grader.exercises.topics"
     )
 
 

@@ -38,7 +38,7 @@ def test_an_error_that_led_to_another_comes_first():
         "In [7], line 2:",
         "    1 / 0",
         "ZeroDivisionError: division by zero",
-        "This led to, or came while dealing with it:",
+        "The next error was caused by this one, or came while handling it:",
         "In [7], line 4:",
         "    raise ValueError('x')",
         "ValueError: x",

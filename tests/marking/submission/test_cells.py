@@ -117,11 +117,11 @@ REPAIRED = {
     ),
     "answer made Markdown": (
         change("hello", cell_type="markdown"),
-        "The type of the cell `hello` was changed; its text was taken all the same.",
+        "The type of the cell `hello` was changed; its text was used anyway.",
     ),
     "answer made raw": (
         change("hello", cell_type="raw"),
-        "The type of the cell `hello` was changed; its text was taken all the same.",
+        "The type of the cell `hello` was changed; its text was used anyway.",
     ),
     "test made Markdown": (
         change("hello-points", cell_type="markdown"),
@@ -129,23 +129,23 @@ REPAIRED = {
     ),
     "unknown type": (
         change("hello", cell_type="banana\n`"),
-        "Cell 5 of the notebook has the unknown type `banana??`; it was read all the same.",
+        "Cell 5 of the notebook has the unknown type `banana??`; it was read anyway.",
     ),
     "no type": (
         change("hello", cell_type=[]),
-        "Cell 5 of the notebook has no type; it was read all the same.",
+        "Cell 5 of the notebook has no type; it was read anyway.",
     ),
     "text is a number": (
         change("hello", source=5),
-        "Cell 5 of the notebook holds a number for its text; that was left out.",
+        "Cell 5 of the notebook contains a number for its text; that was left out.",
     ),
     "text is nothing": (
         change("hello", source=None),
-        "Cell 5 of the notebook holds nothing for its text; that was left out.",
+        "Cell 5 of the notebook contains nothing for its text; that was left out.",
     ),
     "text too long": (
         change("hello", source="#" * 1_100_000),
-        "Cell 5 of the notebook holds 1.1 million characters, more than can be run; it counts as empty.",
+        "Cell 5 of the notebook contains 1.1 million characters, more than can be run; it counts as empty.",
     ),
     "a cell is a number": (
         lambda notebook: notebook["cells"].insert(0, 7),
@@ -157,7 +157,7 @@ REPAIRED = {
     "neither names nor ids": (nameless, BY_LOOK),
     "test of an older version": (
         older_test,
-        "The test cell `hello-points` came from another version of the assignment; the present one was run.",
+        "The test cell `hello-points` came from another version of the assignment; the current one was run.",
     ),
     "kernel of R": (
         lambda notebook: notebook["metadata"].update(
@@ -206,12 +206,12 @@ FLAGGED = {
     "names exchanged": (
         swap_names,
         [],
-        "The cells `hello` and `counter` bore the names of others; they were known by their ids.",
+        "The cells `hello` and `counter` had the names of others; they were recognized by their ids.",
     ),
     "name of another": (
         settings("hello", grade_id="counter"),
         [],
-        "The cell `hello` bore the name of another; it was known by its id.",
+        "The cell `hello` had the name of another; it was recognized by its id.",
     ),
 }
 
@@ -358,7 +358,7 @@ def test_many_odd_cells_are_reported_in_a_few_sentences():
     repairs = rebuilt(damage).repairs
     assert len(repairs) == 6
     assert repairs[4:] == [
-        "Cell 44 of the notebook holds a number for its text; that was left out.",
+        "Cell 44 of the notebook contains a number for its text; that was left out.",
         "The notebook has 295 more such oddities.",
     ]
 
@@ -407,7 +407,7 @@ def move(name, where):
 def test_a_cell_that_has_left_its_place_runs_there(name, where):
     result = rebuilt(move(name, where))
     assert [cell.id for cell in result.notebook.cells] == [cell.id for cell in SOLVED.cells]
-    assert result.repairs == [f"The cell `{name}` had left its place in the assignment; it was run there."]
+    assert result.repairs == [f"The cell `{name}` was not in its place in the assignment; it was run there."]
 
 
 def test_a_missing_cell_has_its_place_though_words_have_left_their_own():
@@ -429,8 +429,8 @@ def test_a_notebook_from_back_to_front_runs_as_it_was_handed_out():
     ids.insert(ids.index("counter"), "f00d")
     assert [cell.id for cell in result.notebook.cells] == ids
     assert result.repairs == [
-        "The cells `hello`, `hello-see`, `hello-points`, `counter`, `counter-see` and 16 more had left their "
-        "places in the assignment; they were run there."
+        "The cells `hello`, `hello-see`, `hello-points`, `counter`, `counter-see` and 16 more were not in "
+        "their places in the assignment; they were run there."
     ]
 
 

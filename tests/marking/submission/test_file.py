@@ -53,15 +53,15 @@ REPAIRED = {
     ),
     "UTF-16": (
         WHOLE.decode().encode("utf-16"),
-        "The notebook's file was saved as UTF-16; it was read so.",
+        "The notebook's file was saved as UTF-16; it was read as such.",
     ),
     "UTF-16 without mark": (
         WHOLE.decode().encode("utf-16-le"),
-        "The notebook's file was saved as UTF-16; it was read so.",
+        "The notebook's file was saved as UTF-16; it was read as such.",
     ),
     "UTF-32": (
         WHOLE.decode().encode("utf-32"),
-        "The notebook's file was saved as UTF-32; it was read so.",
+        "The notebook's file was saved as UTF-32; it was read as such.",
     ),
     "zeros behind": (
         WHOLE + b"\0" * 5000,
@@ -73,11 +73,11 @@ REPAIRED = {
     ),
     "garbage behind": (
         WHOLE + b"}\n <html>",
-        "After its end, the notebook's file went on with something else; that was left out.",
+        "The notebook's file contained something else after its end; that was left out.",
     ),
     "two notebooks in a file": (
         WHOLE + b"\n" + WHOLE,
-        "After its end, the notebook's file went on with something else; that was left out.",
+        "The notebook's file contained something else after its end; that was left out.",
     ),
     "a key twice": (
         twice_a_key(),
@@ -109,7 +109,7 @@ REFUSED = {
     "empty": (b"", f"`nodes.ipynb` is empty; expected a notebook. {AGAIN}"),
     "zeros": (
         b"\0" * 4096,
-        f"`nodes.ipynb` holds nothing but zeros and blanks; expected a notebook. {AGAIN}",
+        f"`nodes.ipynb` contains nothing but zeros and blanks; expected a notebook. {AGAIN}",
     ),
     "Python": (
         b"import rclpy\n\n\nclass Hello:\n    pass\n",
@@ -121,7 +121,7 @@ REFUSED = {
     ),
     "web page": (
         b"<!DOCTYPE html>\n<html><title>Please log in</title></html>",
-        f"`nodes.ipynb` holds a web page, maybe one that asks for a password; expected a notebook. {AGAIN}",
+        f"`nodes.ipynb` contains a web page, perhaps a login page; expected a notebook. {AGAIN}",
     ),
     "zip archive": (
         zipped(),
@@ -130,26 +130,26 @@ REFUSED = {
     ),
     "merge marks": (
         WHOLE.replace(b'   "source"', b'<<<<<<< HEAD\n   "source"\n=======\n   "source"\n>>>>>>> mine\n', 1),
-        "`nodes.ipynb` holds git's merge marks (`<<<<<<<`), so two versions of it. "
+        "`nodes.ipynb` contains git's merge conflict markers (`<<<<<<<`), which means two versions of it. "
         "Choose one, open it in JupyterLab, save it and hand it in again.",
     ),
-    "JSON, but a list": (b"[1, 2]", f"`nodes.ipynb` holds JSON, but no notebook. {AGAIN}"),
+    "JSON, but a list": (b"[1, 2]", f"`nodes.ipynb` contains JSON, but not a notebook. {AGAIN}"),
     "JSON, but other data": (
         b'{"name": "Alice", "worksheets": 5}',
-        "`nodes.ipynb` holds no cells; expected a notebook. "
+        "`nodes.ipynb` contains no cells; expected a notebook. "
         "Hand in the notebook's own file, as JupyterLab saves it.",
     ),
     "cut off in its first cell": (
         WHOLE[:60],
-        f"`nodes.ipynb` is damaged from its beginning on; expected a notebook. {AGAIN}",
+        f"`nodes.ipynb` is damaged from its beginning; expected a notebook. {AGAIN}",
     ),
     "number without end": (
         b'{"nbformat": ' + b"4" * 10_000 + b"}",
-        f"`nodes.ipynb` is damaged from its beginning on; expected a notebook. {AGAIN}",
+        f"`nodes.ipynb` is damaged from its beginning; expected a notebook. {AGAIN}",
     ),
     "tables without end": (
         b'{"cells": ' + b"[" * 200_000,
-        f"`nodes.ipynb` holds tables in tables without end; expected a notebook. {AGAIN}",
+        f"`nodes.ipynb` contains endlessly nested tables; expected a notebook. {AGAIN}",
     ),
     "too many cells": (
         many(own("x"), 50_000),
@@ -158,7 +158,7 @@ REFUSED = {
     ),
     "too much text": (
         data({**solved(), "cells": [own("#" * MAX_CELL_CHARS)] * 6}),
-        "The cells of `nodes.ipynb` hold 6.0 million characters of text; at most 5 million can be marked. "
+        "The cells of `nodes.ipynb` contain 6.0 million characters of text; at most 5 million can be marked. "
         "Make them shorter.",
     ),
     "too many parts": (

@@ -76,8 +76,8 @@ def test_a_notebook_under_another_name_is_taken_if_it_is_the_only_one_with_our_c
     (folder / "notes.ipynb").write_bytes(OTHERS)
     rebuilt = rebuilt_folder(folder)
     assert rebuilt.repairs == [
-        f"`{name}` was taken for `nodes.ipynb`.",
-        "Handed in beside the notebook and not used: `notes.ipynb`.",
+        f"`{name}` was used as `nodes.ipynb`.",
+        "Handed in alongside the notebook and not used: `notes.ipynb`.",
     ]
     assert same(rebuilt.notebooks["nodes"].notebook)
 
@@ -85,7 +85,7 @@ def test_a_notebook_under_another_name_is_taken_if_it_is_the_only_one_with_our_c
 def test_of_several_notebooks_the_one_with_the_right_name_is_taken(folder):
     (folder / "nodes.ipynb").write_bytes(WHOLE)
     (folder / "nodes (1).ipynb").write_bytes(data(STARTER))
-    beside = "Handed in beside the notebook and not used: `nodes (1).ipynb`."
+    beside = "Handed in alongside the notebook and not used: `nodes (1).ipynb`."
     assert rebuilt_folder(folder).repairs == [beside]
 
 
@@ -185,7 +185,7 @@ def test_a_huge_file_is_not_read(folder):
 def test_a_file_or_folder_that_can_not_be_read_is_reported(as_no_one):
     (as_no_one / "nodes.ipynb").write_bytes(WHOLE)
     (as_no_one / "nodes.ipynb").chmod(0)
-    words = "`nodes.ipynb` cannot be read (Permission denied). Hand in a file that may be read."
+    words = "`nodes.ipynb` cannot be read (Permission denied). Hand in a file that can be read."
     assert verdict(as_no_one) == words
     (as_no_one / "locked").mkdir(0)
     assert [entry.path for entry in list_entries(as_no_one)] == ["locked", "nodes.ipynb"]
@@ -203,7 +203,7 @@ def test_other_files_are_not_used_and_named_once(folder):
     (folder / ".ipynb_checkpoints" / "nodes-checkpoint.ipynb").write_bytes(OTHERS)
     rebuilt = rebuilt_folder(folder)
     assert rebuilt.repairs == [
-        "Handed in beside the notebook and not used: `.hidden`, `.ipynb_checkpoints/`, `data.csv`, "
+        "Handed in alongside the notebook and not used: `.hidden`, `.ipynb_checkpoints/`, `data.csv`, "
         "`matplotlib.py`, `sitecustomize.py` and 2 more."
     ]
     assert same(rebuilt.notebooks["nodes"].notebook)
@@ -214,7 +214,7 @@ def test_names_of_files_cannot_break_a_sentence(folder):
     for name in [b"\xff`x`\n\x1b[31m<b>", b"a" * 200]:
         Path(os.fsdecode(bytes(folder) + b"/" + name)).touch()
     assert rebuilt_folder(folder).repairs == [
-        f"Handed in beside the notebook and not used: `{'a' * 59}…` and `??x???[31m<b>`."
+        f"Handed in alongside the notebook and not used: `{'a' * 59}…` and `??x???[31m<b>`."
     ]
 
 
@@ -255,7 +255,7 @@ def test_a_folder_without_end_is_looked_into_only_so_far(folder):
         deep = deep / "again"
         deep.mkdir()
     assert len(list_entries(folder)) == 1 + 4
-    beside = "Handed in beside the notebook and not used: `again/`."
+    beside = "Handed in alongside the notebook and not used: `again/`."
     assert rebuilt_folder(folder).repairs == [beside]
 
 

@@ -30,7 +30,9 @@ def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assign
     # A cell of 01_nodes writes it, so it lies there where the solution was run.
     if (ROOT / "solutions" / assignment / "my_weather.py").exists():
         beside.append("my_weather.py")
-    message = f"Handed in beside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
+    message = (
+        f"Handed in alongside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
+    )
     assert (rebuilt.repairs, rebuilt.flags) == ([message], [])
     for name, starter in release.notebooks.items():
         solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)

@@ -48,4 +48,4 @@ def test_a_link_is_not_followed_and_the_notebook_is_marked_all_the_same(folder, 
     (folder / link).symlink_to(tmp_path)
     taken = read_folder(folder, RELEASE)
     assert taken.workspace == reason
-    assert read_notebooks(taken, RELEASE).repairs == [f"No file of your workspace was taken. {reason}"]
+    assert read_notebooks(taken, RELEASE).repairs == [f"No file of your workspace was used. {reason}"]

@@ -31,7 +31,7 @@ WAIT_S = 60.0  # for a scheduler, and for a worker
 ANSWER_S = 60.0  # for a result that is ready
 TICK_S = 0.5  # between checks of the workers
 TRIES = 3
-LOST = "The worker was lost that marked this."
+LOST = "The worker that marked this was lost."
 MISSING = "--dask needs the library distributed, which is not installed: run `make setup`"
 
 

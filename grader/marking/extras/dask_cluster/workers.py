@@ -62,7 +62,7 @@ class Workers:
 
 def _difference(there: Any, here: Mapping[str, str]) -> str:
     if not isinstance(there, Mapping):
-        return "it gave no versions."
+        return "it reported no versions."
     names = [name for name in here if there.get(name) != here[name]]
     differences = [f"{name} {there.get(name, 'unknown')}, here {here[name]}" for name in names]
     return f"it has {'; '.join(differences)}."

@@ -23,8 +23,9 @@ users, and runs until Ctrl-C."""
 def main(arguments: list[str] | None = None) -> int:
     """Run the command in the course's folder; returns the exit status."""
     parser = argparse.ArgumentParser("python -m grader hub", description=DESCRIPTION)
-    parser.add_argument("--check", action="store_true", help="say what this machine lacks, and do nothing")
-    parser.add_argument("--prepare", action="store_true", help="do all but start the hub")
+    parser.add_argument("--check", action="store_true", help="report what this machine lacks, and do nothing "
+                                                             "else")
+    parser.add_argument("--prepare", action="store_true", help="do everything except start the hub")
     options = parser.parse_args(arguments)
     course = Path.cwd()
     try:

@@ -132,7 +132,7 @@ def read_settings(file: Path) -> HubSettings:
     except OSError as error:
         raise CourseError(f"{file} can't be read ({error.strerror}): `make hub` writes one") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise CourseError(f"{file} is no TOML file: {error}") from None
+        raise CourseError(f"{file} is not a TOML file: {error}") from None
     except (ValueError, ModelError) as error:
         raise CourseError(f"{file}: {getattr(error, 'reason', error)}") from None
 

@@ -29,9 +29,9 @@ from grader.marking.task import TaskPool
 DESCRIPTION = """Let delivery robots work in the same warehouses, and compare them.
 
 Without a NOTEBOOK, these are all submissions of a class, in new warehouses. The pages are in class/league/,
-where the robots have anonymous names; the table on the terminal shows both. With notebooks, for example your
-own of today and of last week, they work in public warehouses, and the pages are in work/league/. The same
-command continues after a stop, and runs again only what has changed."""
+where the robots have anonymous names; the table on the terminal shows both. With notebooks, for example
+this week's and last week's versions of your own, they work in public warehouses, and the pages are in
+work/league/. The same command resumes after a stop, and runs again only what has changed."""
 ASSIGNMENT = "13_delivery"
 INTERRUPTED = 130  # the exit status of shells
 MAX_SECONDS = 2400.0  # s of simulated time in all warehouses together
@@ -49,12 +49,12 @@ def parser() -> argparse.ArgumentParser:
     add("--worlds", type=_number, metavar="N", help="how many warehouses; default: 10")
     add("--seconds", type=_number, metavar="S", help="simulated, in each; default: 120")
     add("--robots", type=int, choices=(1, 2, 3), help="in each, with the same programs; default: 1")
-    add("--seed", metavar="TEXT", help="draw the warehouses from this text, as it is on a league's page")
+    add("--seed", metavar="TEXT", help="draw the warehouses from this text, which a league's page shows")
     add("--draw", action="store_true", help="draw new warehouses for a class that has played already")
     which = f"whose last exercise receives the programs; default: {ASSIGNMENT}"
     add("--assignment", default=ASSIGNMENT, help=which)
     add("--jobs", type=_number, metavar="N", help="robots at a time; default: as many as cores")
-    add("--unsafe", action="store_true", help="no sandbox: the notebooks' code can do all that you can")
+    add("--unsafe", action="store_true", help="no sandbox: the notebooks' code can do anything that you can")
     return made
 
 

@@ -80,7 +80,7 @@ class ContestRun(NotebookRun):
             tested = session.test(cell.source, judge, shown, self._contest.seed)
             self._flag(cell, tested.flags)
             if tested.error is not None:
-                self._flag(cell, [f"could not be played, by a mistake of the course: {tested.error}"])
+                self._flag(cell, [f"could not be played, because of a bug in the course: {tested.error}"])
             problem = "" if tested.score is not None else tested.problem or problem
         finally:  # the games before its process ended count
             result = no_points(cell, self._exercises[cell_name(cell)])

@@ -44,7 +44,7 @@ class Entries:
 def of_class(folder: Path, assignment: str) -> Entries:
     """All submissions of the course in this folder, and the reference. Raises CourseError."""
     if importlib.util.find_spec("grader.marking.gradebook") is None:  # this is the handout
-        raise CourseError("only instructors have what a class handed in: name your notebooks")
+        raise CourseError("only instructors have a class's submissions: name your notebooks")
     from grader.marking.gradebook.course import Course
     from grader.marking.gradebook.find_submissions import find_submissions
 

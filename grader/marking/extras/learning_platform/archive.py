@@ -55,7 +55,7 @@ def open_inner(entry: ArchiveEntry) -> list[ArchiveEntry]:
     try:
         return list(entries(zipfile.ZipFile(io.BytesIO(entry.read()))))
     except (zipfile.BadZipFile, ValueError) as error:
-        raise UnusableEntry(f"is no ZIP ({error})") from None
+        raise UnusableEntry(f"is not a ZIP ({error})") from None
 
 
 def entries(archive: zipfile.ZipFile) -> Iterator[ArchiveEntry]:

@@ -20,8 +20,8 @@ from grader.marking.progress_line import printable
 
 GRADES = """Fill the marks of an assignment, or of all, into the file that the platform exported, in place.
 
-Students are found by the platform's number, by user name or mail, and by name. Who is not found is listed,
-and no other column is changed. Import the file into the platform as it is."""
+Students are found by the platform's number, by user name or mail, and by name. Anyone who is not found is
+listed, and no other column is changed. Import the file into the platform as it is."""
 COLLECT = """Put the submissions that are in the platform's archive into class/submitted/. The newest upload
 of each student counts, and everything that is not used is listed."""
 TOTAL = "Course total"
@@ -142,7 +142,7 @@ def _grades_parser() -> argparse.ArgumentParser:
     made.add_argument("--total", action="store_true", help="the sum of all assignments that are marked")
     _add_sheets(made)
     made.add_argument("--scale", action="store_true", help="convert the points to the platform's maximum")
-    feedback = "pack the students' pages as the platform takes them back"
+    feedback = "pack the students' pages in the form that the platform imports"
     made.add_argument("--feedback-zip", type=Path, metavar="FILE", help=feedback)
     return made
 

@@ -106,7 +106,7 @@ def _students(
         elif counts[ids[at]] > 1:
             saw = f"there are several {ids[at]}"
         elif at not in matches.found and ids[at] in {each.student for each in known}:
-            saw = f"would be {ids[at]}, who is another student"
+            saw = f"would be {ids[at]}, which is another student"
         else:
             found[ids[at]] = uploads[at]
             continue

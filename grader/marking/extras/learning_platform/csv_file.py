@@ -67,7 +67,8 @@ class CsvFile:
         cells = (cell.value for record in self.records[1:] for cell in record[columns.start : columns.stop])
         found = {match[1][0] for match in map(NUMBER.fullmatch, cells) if match and match[1]}
         if len(found) > 1:
-            raise self.problem("it has numbers with a decimal point and with a decimal comma: export it anew")
+            raise self.problem("it has numbers with a decimal point and with a decimal comma: export it "
+                               "again")
         return found.pop() if found else ""
 
     def problem(self, text: str) -> CourseError:
@@ -83,7 +84,7 @@ class CsvFile:
             raise self.problem(f"expected columns separated by one of {kinds}; saw no header with any")
         records = [record for record in found[best] if [cell.value for cell in record] != [""]]
         if [[cell.value for cell in record] for record in records] != self._by_library(best):
-            raise self.problem("its quotes can't be read in one way: take the file as it was exported")
+            raise self.problem("its quotes are ambiguous: take the file as it was exported")
         for number, record in enumerate(records, 1):
             if len(record) != len(records[0]):
                 expected = f"expected {len(records[0])} cells in record {number}, as in the header"

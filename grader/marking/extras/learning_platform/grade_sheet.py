@@ -59,8 +59,8 @@ def read_moodle(file: CsvFile, column: str = "", decimal: str = "") -> GradeShee
     if len(most) > 1 or not all(map(_is_number, most)):
         title = file.header[grade + 1]
         raise file.problem(
-            f"expected one maximum in the column {title!r}, behind the grades, saw {_some(most)}: "
-            "an assignment that gives points has it"
+            f"expected one maximum in the column {title!r}, after the grades, saw {_some(most)}: an "
+            "assignment that gives points has it"
         )
     people = {at: _moodle_person(file.values(at), numbers[at][2], grade) for at in records}
     locked = {at: "is locked in Moodle" for at in records if _is_locked(file.values(at), grade)}
@@ -88,7 +88,7 @@ def read_canvas(
     if len(points) != 1:
         saw = _some(most) if most else "no such row"
         expected = f"expected the possible points of {header[grade]!r} above the students"
-        raise file.problem(f"{expected}, saw {saw}: export the gradebook of Canvas anew")
+        raise file.problem(f"{expected}, saw {saw}: export the gradebook of Canvas again")
     excused = {
         at: "is excused in Canvas" for at in people if file.values(at)[grade].strip().upper() == EXCUSED
     }
@@ -106,7 +106,7 @@ def _before_maximum(file: CsvFile) -> int:
     ]
     if len(found) != 1:
         saw = " or ".join(repr(file.header[at]) for at in found) or "none"
-        expected = "expected one column of grades with the maximum behind it"
+        expected = "expected one column of grades with the maximum after it"
         raise file.problem(f"{expected}, saw {saw}: name it with --column")
     return found[0]
 

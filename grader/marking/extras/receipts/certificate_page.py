@@ -35,7 +35,7 @@ def check_page(page: str, receipts: Sequence[MarkReceipt]) -> None:
         raise NotConfirmed("the page has receipts of different students")
     if as_page(receipts, signed_in(page)).split() != page.split():
         what = "the receipts on this page are genuine, but the page shows something else"
-        raise NotConfirmed(f"{what}: go by what is signed, {'; '.join(map(sentence, receipts))}")
+        raise NotConfirmed(f"{what}: rely only on what is signed, {'; '.join(map(sentence, receipts))}")
 
 
 def sentence(receipt: MarkReceipt) -> str:

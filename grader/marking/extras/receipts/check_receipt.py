@@ -25,7 +25,7 @@ def check_submission(receipt: MarkReceipt, submission: Path, release: Path) -> M
     here = evidence(task, "")
     for what, path in (("release", release), ("submission", submission)):
         if here[what] != receipt.digests.get(what):
-            raise NotConfirmed(f"{path} is not the {what} that was marked: its digest is another one")
+            raise NotConfirmed(f"{path} is not the {what} that was marked: its digest differs")
     return task
 
 
@@ -33,7 +33,7 @@ def other_versions(receipt: MarkReceipt, task: MarkingTask) -> Iterator[str]:
     """A sentence for everything that is another one here than when the mark was given."""
     here = evidence(task, "")
     if here[LOCK] != receipt.digests.get(LOCK):
-        yield f"{LOCK} is another one here"
+        yield f"{LOCK} is different here"
     for name, version in receipt.versions.items():
         if here.get(name) != version:
             yield f"{name} is {here.get(name)} here, and was {version}"

@@ -20,8 +20,8 @@ from grader.marking.progress_line import printable
 RECEIPTS = """Sign a receipt for every mark, class/receipts/STUDENT/ASSIGNMENT.json, and a certificate for
 each student who passed something, class/receipts/STUDENT.html: a page of the receipts. The key is made the
 first time; give class/receipts/public.pem to everyone who wants to confirm a mark."""
-VERIFY = """Confirm a receipt or a certificate with the instructor's public key, and say what it says. With
-the submission and the release, check that the mark was given for them, and mark again."""
+VERIFY = """Confirm a receipt or a certificate with the instructor's public key, and show what it certifies.
+With the submission and the release, check that the mark was given for them, and mark again."""
 KEY = Path("class", "receipts", envelope.PUBLIC)
 LIBRARY = "receipts need the library securesystemslib: run `make tools`"
 
@@ -104,7 +104,7 @@ def _confirmed(path: Path, key: Any) -> list[MarkReceipt]:
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", "it is no text")
+        why = getattr(error, "strerror", "it is not text")
         raise NotConfirmed(f"expected a receipt, saw {path} ({why})") from None
     if text.lstrip().startswith("<"):
         found = [MarkReceipt.from_statement(envelope.open_signed(each, key)) for each in signed_in(text)]
@@ -155,7 +155,7 @@ def _verify_parser() -> argparse.ArgumentParser:
     add("--key", type=Path, default=KEY, metavar="FILE", help=f"the instructor's public key; default: {KEY}")
     add("--submission", type=Path, metavar="FOLDER", help="the folder that the student handed in")
     add("--release", type=Path, metavar="FOLDER", help="the assignment, such as exercises/01_nodes")
-    add("--unsafe", action="store_true", help="no sandbox: the student's code can do all that you can")
+    add("--unsafe", action="store_true", help="no sandbox: the student's code can do anything that you can")
     return made
 
 

@@ -28,7 +28,7 @@ def make_keys(private: Path, public: Path) -> Any:
         key = serialization.load_pem_private_key(private.read_bytes(), None)
         signer = CryptoSigner(key)
     except (OSError, ValueError, TypeError) as error:
-        raise CourseError(f"{private} is no private key ({error}): take it from a backup") from None
+        raise CourseError(f"{private} is not a private key ({error}): take it from a backup") from None
     form = serialization.Encoding.PEM, serialization.PublicFormat.SubjectPublicKeyInfo
     write_atomically(public, key.public_key().public_bytes(*form))
     return signer
@@ -44,7 +44,7 @@ def read_key(path: Path) -> Any:
     except OSError as error:
         raise NotConfirmed(f"expected the instructor's public key, saw {path} ({error.strerror})") from None
     except ValueError:
-        raise NotConfirmed(f"expected the instructor's public key, saw {path}, which is none") from None
+        raise NotConfirmed(f"expected the instructor's public key, saw {path}, which is not one") from None
 
 
 def sign(statement: dict[str, Any], signer: Any) -> str:
@@ -67,16 +67,16 @@ def open_signed(text: str, key: Any) -> Any:
             raise ValueError("it has other fields than payload, payloadType and signatures")
         envelope = Envelope.from_dict(data)
     except (ValueError, KeyError, TypeError, AttributeError, FormatError, RecursionError) as error:
-        raise NotConfirmed(f"this is no receipt, or it is damaged ({error})") from None
+        raise NotConfirmed(f"this is not a receipt, or it is damaged ({error})") from None
     if not envelope.signatures:
         raise NotConfirmed("this receipt is not signed")
     if key.keyid not in envelope.signatures:
-        raise NotConfirmed("this receipt was signed with another key than the one given")
+        raise NotConfirmed("this receipt was signed with a different key from the one given")
     try:
         envelope.verify([key], 1)
     except VerificationError:
         why = "the receipt was changed after it was issued"
-        raise NotConfirmed(f"the signature does not fit: {why}") from None
+        raise NotConfirmed(f"the signature does not match: {why}") from None
     if envelope.payload_type != KIND:
-        raise NotConfirmed(f"what was signed is no in-toto statement, but {envelope.payload_type!r}")
+        raise NotConfirmed(f"what was signed is not an in-toto statement but {envelope.payload_type!r}")
     return json.loads(envelope.payload)

@@ -82,10 +82,10 @@ def _doubt(mark: GradebookMark, entry: JournalEntry | None, key: str) -> str:
     if not entry.evidence:
         return f"was marked before there were receipts: {again}, with --force"
     if entry.evidence["secret"] != fingerprint(key):
-        return f"was marked with another secret than the one in .secret: {again}"
+        return f"was marked with a different secret from the one in .secret: {again}"
     earned = {(note.name, cell.cell): cell.points for note in entry.result.notebooks for cell in note.cells}
     if any(mark.by_marking.get(cell) != points for cell, points in earned.items()):
-        return f"has other points in the gradebook than marking gave: {again}"
+        return f"has different points in the gradebook from those that marking gave: {again}"
     return "still needs a look in the formgrader" if mark.needs_look else ""
 
 

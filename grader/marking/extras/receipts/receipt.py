@@ -71,7 +71,7 @@ class MarkReceipt:
             digests = {each["name"]: each["digest"]["sha256"] for each in data["subject"]}
             receipt = MarkReceipt(**about, cells=cells, digests=digests)
         except (TypeError, KeyError, ValueError, AttributeError) as error:
-            raise NotConfirmed(f"what was signed is no mark of this course ({error})") from None
+            raise NotConfirmed(f"what was signed is not a mark of this course ({error})") from None
         if receipt.seeds and receipt.seal != seal_of(receipt.nonce, receipt.seeds):
             raise NotConfirmed("the seeds are not those that were sealed when the mark was given")
         return receipt

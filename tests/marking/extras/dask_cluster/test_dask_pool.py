@@ -26,7 +26,7 @@ from tests.patience import PATIENCE
 HOW = {"unsafe": True, "secret": "a secret", "time_limits": USUAL}
 REMOTE = {**HOW, "wait_s": PATIENCE}
 SORRY = "This could not be marked; your instructor will look at it."
-LOST = "The worker was lost that marked this."
+LOST = "The worker that marked this was lost."
 
 
 @pytest.fixture(scope="module")

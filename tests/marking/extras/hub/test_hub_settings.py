@@ -60,7 +60,7 @@ def test_a_missing_file_and_one_that_is_no_toml_are_named(file):
         read_settings(file)
     assert str(raised.value) == f"{file} can't be read (No such file or directory): `make hub` writes one"
     file.write_text("port = = 1")
-    with pytest.raises(CourseError, match=r"hub\.toml is no TOML file: Invalid value"):
+    with pytest.raises(CourseError, match=r"hub\.toml is not a TOML file: Invalid value"):
         read_settings(file)
 
 

@@ -121,7 +121,7 @@ def test_a_new_number_that_is_another_student_s_id_is_not_collected(course, coll
     course.submitted("1001", ASSIGNMENT).mkdir(parents=True)
     status, output, wrong = collect({"x_1001_90_nodes.ipynb": notebook})
     assert (status, output) == (1, counts())
-    why = "would be 1001, who is another student, and is not collected"
+    why = "would be 1001, which is another student, and is not collected"
     assert wrong == f"  x (1001): {why}: give the platform's grading sheet with --moodle or --canvas.\n"
 
 
@@ -162,7 +162,7 @@ def test_a_zip_in_the_archive_is_unpacked_once(course, collect, notebook):
         f"  {name}/work.zip: work/../../../evil: has a path that leads out of the archive.",
         f"  {name}/work.zip: work/more.zip: is a ZIP in a ZIP in a ZIP.",
         f"  {name}/{NB}: has the name of another file, {name}/work.zip: work/{NB} counts.",
-        f"  {name}/bad.ZIP: is no ZIP (File is not a zip file).",
+        f"  {name}/bad.ZIP: is not a ZIP (File is not a zip file).",
     ]
     assert content(course, "anna") == {NB: notebook, "ws/src/a.py": b"1"}
 

@@ -75,8 +75,8 @@ def test_blank_lines_and_a_missing_last_line_end_stay(tmp_path):
         ("a\n1\n", "expected columns separated by one of commas, semicolons, tabs; saw no header with any"),
         ("a,b;c\n", "expected columns separated by one of commas, semicolons, tabs; saw no header with any"),
         ("a,b\n1,2,3\n", "expected 2 cells in record 2, as in the header, saw 3: take the file as it was exported"),
-        ('a,b\n"1"x,2\n', "its quotes can't be read in one way: take the file as it was exported"),
-        ('a,b\n"1,2\n', "its quotes can't be read in one way: take the file as it was exported"),
+        ('a,b\n"1"x,2\n', "its quotes are ambiguous: take the file as it was exported"),
+        ('a,b\n"1,2\n', "its quotes are ambiguous: take the file as it was exported"),
         (
             "Müller,b\n".encode("latin-1"),
             "expected UTF-8, saw the byte 0xfc at 1: take the file as it was exported",

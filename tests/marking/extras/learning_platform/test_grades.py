@@ -201,12 +201,12 @@ MOODLE_WAY = "download it with View all submissions, Grading worksheet"
         (
             "Id,Name,Grade\nUser 1,Anna,\n",
             (),
-            "expected one column of grades with the maximum behind it, saw none: name it with --column",
+            "expected one column of grades with the maximum after it, saw none: name it with --column",
         ),
         (
             "Id,Name,A,Max,B,Max\nUser 1,Anna,,15,,20\n",
             (),
-            "expected one column of grades with the maximum behind it, saw 'A' or 'B': name it with --column",
+            "expected one column of grades with the maximum after it, saw 'A' or 'B': name it with --column",
         ),
         (
             moodle([ANNA]),
@@ -217,7 +217,7 @@ MOODLE_WAY = "download it with View all submissions, Grading worksheet"
         (
             moodle([ANNA]),
             ("--column", "Status"),
-            "expected one maximum in the column 'Grade', behind the grades, saw '': "
+            "expected one maximum in the column 'Grade', after the grades, saw '': "
             "an assignment that gives points has it",
         ),
     ],
@@ -251,13 +251,13 @@ def test_a_worksheet_that_can_t_be_filled_is_named_with_what_was_expected(course
             canvas([], most="(read only)"),
             (),
             "expected the possible points of '01_class (4711)' above the students, saw '(read only)': "
-            "export the gradebook of Canvas anew",
+            "export the gradebook of Canvas again",
         ),
         (
             php_csv([CANVAS]),
             (),
             "expected the possible points of '01_class (4711)' above the students, saw no such row: "
-            "export the gradebook of Canvas anew",
+            "export the gradebook of Canvas again",
         ),
     ],
 )

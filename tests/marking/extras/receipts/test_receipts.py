@@ -124,10 +124,10 @@ AGAIN = f"mark {ASSIGNMENT} again"
     ("change", "doubt"),
     [
         (look_again, "still needs a look in the formgrader"),
-        (other_points, f"has other points in the gradebook than marking gave: {AGAIN}"),
+        (other_points, f"has different points in the gradebook from those that marking gave: {AGAIN}"),
         (no_entry, f"was not marked by `python -m grader mark {ASSIGNMENT}`"),
         (no_evidence, f"was marked before there were receipts: {AGAIN}, with --force"),
-        (new_secret, f"was marked with another secret than the one in .secret: {AGAIN}"),
+        (new_secret, f"was marked with a different secret from the one in .secret: {AGAIN}"),
     ],
 )
 def test_a_doubtful_mark_has_no_receipt(course, issue, change, doubt):
@@ -146,7 +146,7 @@ def test_without_marks_or_library_or_key_there_are_no_receipts(course, issue, mo
     assert issue() == (1, "", f"No receipts: others may read {key}: run `chmod 600 .signing-key`.\n")
     key.chmod(0o600)
     _, _, wrong = issue()
-    assert wrong.startswith(f"No receipts: {key} is no private key (") and wrong.endswith("): take it from a backup.\n")
+    assert wrong.startswith(f"No receipts: {key} is not a private key (") and wrong.endswith("): take it from a backup.\n")
     monkeypatch.setattr(cli, "find_spec", lambda name: None)
     assert issue() == (1, "", f"No receipts: {cli.LIBRARY}.\n")
 

@@ -19,8 +19,8 @@ from tests.marking.extras.receipts.conftest import ISSUER
 from tests.marking.marked_class import marked
 
 Signed = dict[str, Any]
-DAMAGED = "this is no receipt, or it is damaged"
-CHANGED = "the signature does not fit: the receipt was changed after it was issued"
+DAMAGED = "this is not a receipt, or it is damaged"
+CHANGED = "the signature does not match: the receipt was changed after it was issued"
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ TAMPERED: dict[str, tuple[Callable[[Signed], Any], str]] = {
     "another signature": (lambda it: signature(it, sig=base64.b64encode(b"\0" * 64).decode()), CHANGED),
     "a short signature": (lambda it: signature(it, sig="AAAA"), CHANGED),
     "another kind": (lambda it: it | {"payloadType": "application/json"}, CHANGED),
-    "another key": (other_key, "this receipt was signed with another key than the one given"),
+    "another key": (other_key, "this receipt was signed with a different key from the one given"),
     "a forged key": (forged, CHANGED),
     "no signature": (lambda it: it | {"signatures": []}, "this receipt is not signed"),
     "no base64": (lambda it: it | {"payload": "a"}, f"{DAMAGED} (Invalid base64-encoded string"),
@@ -131,7 +131,7 @@ def test_a_page_that_shows_more_than_its_receipts_is_refused(elsewhere, confirm,
     assert (status, output) == (1, "")
     what = "the receipts on this page are genuine, but the page shows something else"
     assert wrong.startswith(
-        f"Not confirmed: {what}: go by what is signed, Anna Meier (anna) has 15 of 15 points in {ASSIGNMENT}, says"
+        f"Not confirmed: {what}: rely only on what is signed, Anna Meier (anna) has 15 of 15 points in {ASSIGNMENT}, says"
     )
 
 
@@ -143,9 +143,9 @@ def sign_as_instructor(course, statement: Any, elsewhere) -> None:
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda it: it | {"predicateType": "x"}, "what was signed is no mark of this course (x)"),
-        (lambda it: {"predicateType": MARK}, "what was signed is no mark of this course ('_type')"),
-        (lambda it: [], "what was signed is no mark of this course (list indices must be integers or slices, not str)"),
+        (lambda it: it | {"predicateType": "x"}, "what was signed is not a mark of this course (x)"),
+        (lambda it: {"predicateType": MARK}, "what was signed is not a mark of this course ('_type')"),
+        (lambda it: [], "what was signed is not a mark of this course (list indices must be integers or slices, not str)"),
         (
             lambda it: it | {"predicate": it["predicate"] | {"seeds": {"counter": [1]}, "nonce": "0"}},
             "the seeds are not those that were sealed when the mark was given",
@@ -162,7 +162,7 @@ def test_a_signed_text_of_another_kind_is_no_receipt(course, elsewhere, confirm,
     sign_as_instructor(course, {}, elsewhere)
     monkeypatch.undo()
     monkeypatch.chdir(elsewhere)
-    reported = "what was signed is no in-toto statement, but 'text/plain'"
+    reported = "what was signed is not an in-toto statement but 'text/plain'"
     assert confirm() == (1, "", f"Not confirmed: {reported}.\n")
 
 
@@ -171,11 +171,11 @@ def test_a_key_or_a_file_that_is_not_there_is_named(elsewhere, say, monkeypatch)
     name = f"{ASSIGNMENT}.json"
     reported = f"Not confirmed: {key} class/receipts/public.pem (No such file or directory).\n"
     assert say("verify", name) == (1, "", reported)
-    assert say("verify", name, "--key", name) == (1, "", f"Not confirmed: {key} {name}, which is none.\n")
+    assert say("verify", name, "--key", name) == (1, "", f"Not confirmed: {key} {name}, which is not one.\n")
     reported = "Not confirmed: expected a receipt, saw no (No such file or directory).\n"
     assert say("verify", "no", "--key", "public.pem") == (1, "", reported)
     (elsewhere / "bytes").write_bytes(b"\xff")
-    reported = "Not confirmed: expected a receipt, saw bytes (it is no text).\n"
+    reported = "Not confirmed: expected a receipt, saw bytes (it is not text).\n"
     assert say("verify", "bytes", "--key", "public.pem") == (1, "", reported)
     monkeypatch.setattr(cli, "find_spec", lambda name: None)
     assert say("verify", name) == (1, "", f"Not confirmed: {cli.LIBRARY}.\n")
@@ -269,10 +269,10 @@ def test_where_marking_again_differs_is_listed(course, again, monkeypatch, chang
 def test_another_submission_or_release_is_refused(course, again):
     submit(course, "anna", line="Line = 3")
     folder = course.submitted("anna", ASSIGNMENT)
-    reported = f"{folder} is not the submission that was marked: its digest is another one"
+    reported = f"{folder} is not the submission that was marked: its digest differs"
     assert again(SeededPool(course)) == (1, "", f"Not confirmed: {reported}.\n")
     (course.release(ASSIGNMENT) / "more.txt").write_text("more")
-    reported = f"{course.release(ASSIGNMENT)} is not the release that was marked: its digest is another one"
+    reported = f"{course.release(ASSIGNMENT)} is not the release that was marked: its digest differs"
     assert again(SeededPool(course)) == (1, "", f"Not confirmed: {reported}.\n")
 
 
@@ -285,7 +285,7 @@ def test_other_versions_are_named(course, elsewhere, again):
     status, output, wrong = again(SeededPool(course))
     assert (status, wrong) == (0, "")
     first, second, *_ = output.removeprefix(SAME).splitlines()
-    assert first == "requirements.lock is another one here: points may differ."
+    assert first == "requirements.lock is different here: points may differ."
     assert second.startswith("Python is 3.") and second.endswith(" here, and was 3.0: points may differ.")
 
 
