@@ -7,6 +7,7 @@ import textwrap
 
 from grader.checks import Missed
 from grader.checks.interface_definitions import PARTS, read_definition
+from grader.checks.packages import build_warnings
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.exercise import Exercise
 from grader.programs import LocalPrograms
@@ -21,8 +22,9 @@ from sim.evidence import Recording
 def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: int = 0) -> Recording:
     """Build the package of an exercise, and run one of its scenarios.
 
-    workspace: the folder with src/ in it. What goes wrong is printed; the recording of a package that can't
-    be built is empty. No points are given. Of a package of interfaces, what it defines is printed.
+    workspace: the folder with src/ in it. What goes wrong is printed, and what the build warns about; the
+    recording of a package that can't be built is empty. No points are given. Of a package of interfaces, what
+    it defines is printed.
     """
     source = LocalPrograms((workspace,))
     try:
@@ -34,6 +36,8 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
             _print_definitions(found)
             print(found.built.problem or f"Built: {', '.join(type_names(found.built.files))}")
             return Recording()
+        for warning in build_warnings(found):
+            print(f"The build warns: {warning}")
         chosen, seed = exercise.runs()[scenario]
         recording = chosen.run(source, seed)
         tell(recording)

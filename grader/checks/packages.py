@@ -11,6 +11,8 @@ from grader.workspace.package import Package, PackageRun
 
 ROS = re.compile(r"rclpy|tf2_ros|message_filters|launch(_ros)?|rosbag2_py|std_srvs|\w+_msgs|\w+_interfaces")
 TESTS = ("test", "tests")
+WARNING = re.compile(r"\b\w*Warning: (.+)")  # a line of Python's warnings
+MODULES = re.compile(r"lib/python[^/]+/site-packages/(.+)")
 
 
 def package_of(run: PackageRun) -> Package:
@@ -54,6 +56,57 @@ def installs_by_itself(run: PackageRun) -> None:
                 f"{pairs[what]} in data_files",
                 f"none: colcon installed it instead, and warns that it won't always ({what})",
                 "Add this pair to data_files in setup.py, with a comma after it.",
+            )
+
+
+def build_warnings(package: Package) -> list[str]:
+    """Return the warnings that Python printed in the build, each once."""
+    found = map(WARNING.search, package.built.output.splitlines())
+    return list(dict.fromkeys(line[1].strip() for line in found if line))
+
+
+def builds_without_warnings(run: PackageRun) -> None:
+    """The build prints no warning, and setup.py hides none. Raises Missed, about the warning or ""."""
+    package, expected = package_of(run), "no warning of colcon build"
+    for warning in build_warnings(package):
+        raise Missed(expected, f"“{warning}”", about=(warning,))
+    if "warnings" in imports(package.sources.get(f"{package.package_xml.name}/setup.py", b"")):
+        raise Missed(expected, "a setup.py that imports warnings, to hide them", about=("",))
+
+
+def installs_only_its_name(run: PackageRun) -> None:
+    """No Python package or module is installed but the one with the package's name. Raises Missed."""
+    package = package_of(run)
+    name = package.package_xml.name
+    tops = {found[1].split("/")[0] for found in map(MODULES.fullmatch, package.built.files) if found}
+    others = sorted(
+        top.removesuffix(".py") for top in tops - {name} if not top.endswith((".egg-info", ".dist-info"))
+    )
+    if others:
+        raise Missed(
+            f"only {name} at the top of what is installed",
+            f"also {', '.join(others)}",
+            f"Other packages may install a module of the same name, and Python imports the first one that it "
+            f"finds. Move your modules into the folder {name}/ that has __init__.py.",
+        )
+
+
+def imports_by_its_name(run: PackageRun) -> None:
+    """What is installed imports its own modules by the package's name, and changes no path. Raises Missed."""
+    package = package_of(run)
+    built, name = package.built, package.package_xml.name
+    modules = [path for path in built.files if MODULES.fullmatch(path) and path.endswith(".py")]
+    installed = [*modules, *(path for path in built.programs if path.startswith(f"lib/{name}/"))]
+    own = {path.rpartition("/")[2].removesuffix(".py") for path in installed} - {name}
+    for path in sorted(installed):
+        data = built.files[path]
+        bare = [found for found in imports(data) if found.split(".")[0] in own]
+        saw = "sys.path" if b"sys.path" in data else f"an import of {bare[0]}" if bare else ""
+        if saw:
+            raise Missed(
+                f"imports from {name} or {name}.MODULE",
+                f"{saw} in {path.rpartition('/')[2]}",
+                "A module of the package is found by the package's name, from every folder.",
             )
 
 

@@ -1,11 +1,11 @@
-"""A weather station and a voltage probe, which programs of packages subscribe to."""
+"""A weather station, a voltage probe and a wheel encoder, which programs of packages subscribe to."""
 
 import random
 
 from rclpy.node import Node
-from std_msgs.msg import Float32
+from std_msgs.msg import Float32, Int32
 
-TEMPERATURE, VOLTS = "/temperature", "/volts"
+TEMPERATURE, VOLTS, TICKS = "/temperature", "/volts", "/ticks"
 EDGES = 0.0, 0.5, 3.3  # V: the two limits, and what becomes 0 degrees
 
 
@@ -33,3 +33,14 @@ class VoltageProbe(Node):
             voltages[place] = volts
         publisher = self.create_publisher(Float32, VOLTS, 10)
         self.create_timer(0.25, lambda: publisher.publish(Float32(data=voltages.pop())))
+
+
+class WheelEncoder(Node):
+    """Publishes how far a wheel has turned, in ticks (Int32 on /ticks) at 4 Hz; it may turn back below 0."""
+
+    def __init__(self, seed: int) -> None:
+        super().__init__("encoder")
+        rng = random.Random(f"encoder {seed}")
+        counts = [rng.randrange(-2000, 9000) for _ in range(100)]
+        publisher = self.create_publisher(Int32, TICKS, 10)
+        self.create_timer(0.25, lambda: publisher.publish(Int32(data=counts.pop())))

@@ -1,12 +1,10 @@
 """A package with six faults. How it should be is nowhere in what students get."""
 
-import functools
-import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
-Folder = str | os.PathLike[str]
-Fix = Callable[[str, str, str], None]
+from grader.companions.given_package import Fix, Folder, fix_text, write_package
 
 XML = """\
 <?xml version="1.0"?>
@@ -121,21 +119,9 @@ def repaired(workspace: Folder, repair: Callable[[Fix], None]) -> Folder | None:
     repair: a function of `fix`, which takes a file of the package, such as "setup.py", a text that is in it
     once, and the text to replace it with.
     """
-    for path, text in FILES.items():
-        file = Path(workspace) / "src" / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
+    write_package(workspace, FILES)
     try:
-        repair(functools.partial(_fix, workspace))
+        repair(partial(fix_text, Path(workspace) / "src/patrol"))
     except NotImplementedError:
         return None
     return workspace
-
-
-def _fix(workspace: Folder, file: str, old: str, new: str) -> None:
-    """Raises ValueError where the file has no `old`, or more than one, and FileNotFoundError for no file."""
-    path = Path(workspace) / "src" / "patrol" / file
-    text = path.read_text(encoding="utf-8")
-    if text.count(old) != 1:
-        raise ValueError(f"{file} has {text.count(old)} times {old!r}: give a text that it has once.")
-    path.write_text(text.replace(old, new), encoding="utf-8")

@@ -1,7 +1,6 @@
 """A package that works: its program is operated from terminals, and what it offers is found by looking."""
 
-import os
-from pathlib import Path
+from grader.companions.given_package import Folder, write_package
 
 NAME, NUMBER = "watchman", "7306"
 XML = """\
@@ -111,9 +110,6 @@ FILES = {
 }
 
 
-def write_watchman(workspace: str | os.PathLike[str]) -> None:
+def write_watchman(workspace: Folder) -> None:
     """Write the package into a workspace. Existing files are overwritten."""
-    for path, text in FILES.items():
-        file = Path(workspace) / "src" / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
+    write_package(workspace, FILES)

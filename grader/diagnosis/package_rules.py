@@ -58,8 +58,13 @@ def own_module(error: CallbackError, recording: Recording) -> str:
     found = re.match(r"No module named '([\w.]+)'", error.text)
     if error.type != "ModuleNotFoundError" or not found:
         return ""
-    name = found[1]
-    for path in map(PurePosixPath, sources):
+    return _unfound_module(found[1], [PurePosixPath(path) for path in sources])
+
+
+def _unfound_module(name: str, paths: list[PurePosixPath]) -> str:
+    """What to do where no module has this name, and a file of the package could be it; else ""."""
+    outside = ""
+    for path in paths:
         package, *between = path.parts[1:-1] or [""]
         whole = ".".join([package, *between, path.stem])
         if path.suffix != ".py" or not package:
@@ -69,12 +74,17 @@ def own_module(error: CallbackError, recording: Recording) -> str:
                 f"{path.relative_to(path.parts[0])} was not installed. In setup.py, "
                 "packages=find_packages(exclude=['test']) finds each folder that has an __init__.py."
             )
-        if name == path.stem:
+        if name == path.stem and package == path.parts[0]:
             return (
                 "The full name of a package's module begins with the package's name, in imports and in entry "
                 f"points: write {whole}, not {name}."
             )
-    return ""
+        if package != path.parts[0] and name in (path.stem, f"{path.parts[0]}.{path.stem}"):
+            outside = (
+                f"{path.relative_to(path.parts[0])} is outside the package for Python. Move it into the "
+                f"folder {path.parts[0]}/ that has __init__.py."
+            )
+    return outside
 
 
 def absent_launch_file(error: CallbackError) -> str:

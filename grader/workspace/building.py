@@ -121,7 +121,7 @@ def _execute(command: Sequence[str], working: Path, folder: Path) -> tuple[int |
     """
     inherited = ("PATH", "HOME", "TMPDIR", "LANG", "PYTHONHASHSEED")
     environment = {name: os.environ[name] for name in inherited if name in os.environ}
-    environment |= {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONWARNINGS": "ignore", "COLCON_HOME": str(folder)}
+    environment |= {"PYTHONDONTWRITEBYTECODE": "1", "COLCON_HOME": str(folder)}
     with tempfile.TemporaryFile() as output:
         try:
             process = subprocess.Popen(

@@ -8,7 +8,7 @@ from grader.exercises import packages
 from grader.marking.judge.patrol_faults import FAULTS, FILES, GIVEN
 from grader.programs import _refuse_to_build
 from grader.workspace import building
-from grader.workspace.building import CannotBuildHere
+from grader.workspace.building import Built, CannotBuildHere
 from grader.workspace.package import PackageRun
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import executed
@@ -53,6 +53,33 @@ def test_a_text_that_a_file_does_not_have_once_can_not_be_fixed(tmp_path, old, t
         packages.repaired(tmp_path, lambda fix: fix("setup.py", old, ""))
 
 
+def test_what_is_moved_is_written_anew_each_time(tmp_path):
+    def rearrange(move, fix):
+        move("scripts/odometer.py", "odometer/deep/node.py")
+        fix("odometer/deep/node.py", "import sys\n", "")
+
+    for _ in range(2):
+        assert packages.rearranged(tmp_path, rearrange) == tmp_path
+    folder = tmp_path / "src/odometer"
+    assert not (folder / "scripts/odometer.py").exists()
+    assert "import sys\n" not in (folder / "odometer/deep/node.py").read_text()
+    packages.rearranged(tmp_path, lambda move, fix: None)
+    assert sorted(path.name for path in folder.rglob("*.py")) == [
+        "__init__.py", "encoder.py", "odometer.py", "setup.py"
+    ]  # fmt: skip
+
+
+def test_a_file_that_is_not_there_or_is_in_the_way_is_not_moved(tmp_path):
+    with pytest.raises(
+        FileNotFoundError, match=r"^There is no file scripts in odometer: its files are helpers/encoder.py, "
+    ):
+        packages.rearranged(tmp_path, lambda move, fix: move("scripts", "odometer/x.py"))
+    with pytest.raises(
+        FileExistsError, match=r"^There is already setup.cfg in odometer: move setup.py to another path.$"
+    ):
+        packages.rearranged(tmp_path, lambda move, fix: move("setup.py", "setup.cfg"))
+
+
 def test_nothing_is_handed_over_before_anything_is_fixed(tmp_path):
     def repair(fix):
         raise NotImplementedError
@@ -62,6 +89,13 @@ def test_nothing_is_handed_over_before_anything_is_fixed(tmp_path):
     assert [verdict.saw for verdict in score.verdicts if verdict.status == "failed"] == [
         "This exercise is not started yet: that line is still in the cell above, about patrol"
     ]
+
+
+def test_warnings_of_a_build_are_printed_beside_the_notebook(monkeypatch, capsys):
+    output = "x.py:1: UserWarning: Unknown distribution option: 'title'\n"
+    monkeypatch.setattr(building, "build", lambda _: Built(output=output))
+    packages.see(packages.greeter, Workspace(__name__, RIGHT))
+    assert capsys.readouterr().out.startswith("The build warns: Unknown distribution option: 'title'\n")
 
 
 def test_what_can_not_be_built_is_reported_beside_the_notebook(tmp_path, capsys):

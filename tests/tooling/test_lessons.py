@@ -80,6 +80,6 @@ def test_an_assignment_says_its_time_and_ends_with_an_open_task(assignment):
 @pytest.mark.parametrize("assignment", ASSIGNMENTS)
 def test_each_answer_is_explained_to_the_instructor_alone(assignment):
     text = (ROOT / "solutions" / assignment / "answers.md").read_text("utf-8")
-    numbers = [int(number) for number in re.findall(r"^\*\*(\d)\. ", text, re.M)]
+    numbers = [int(number) for number in re.findall(r"^\*\*(\d+)\. ", text, re.M)]
     assert numbers == list(range(1, len(graded_exercises(assignment)) + 1))
     assert not (ROOT / "exercises" / assignment / "answers.md").exists()

@@ -3,17 +3,34 @@
 import pytest
 
 from grader import Missed
-from grader.checks.packages import imports, installs_by_itself, names_what_it_imports, package_of, parsed
+from grader.checks.packages import (
+    build_warnings,
+    builds_without_warnings,
+    imports,
+    imports_by_its_name,
+    installs_by_itself,
+    installs_only_its_name,
+    names_what_it_imports,
+    package_of,
+    parsed,
+)
 from grader.workspace.building import Built
 from grader.workspace.package import Package, PackageRun
 from grader.workspace.package_xml import PackageXml
 from sim import Recording
 
+MODULES = "lib/python3.12/site-packages"
 
-def packaged(sources=(), depend=(), output=""):
-    """A run of the package `patrol` with these sources, as pairs of a path below it and a text."""
+
+def packaged(sources=(), depend=(), output="", installed=()):
+    """A run of the package `patrol` with these sources, as pairs of a path below it and a text.
+
+    installed: its files in install/, in the same form; those in lib/patrol are programs.
+    """
     files = {f"patrol/{path}": text.encode() for path, text in dict(sources).items()}
-    package = Package(files, PackageXml("patrol", {"depend": frozenset(depend)}), Built(output=output))
+    there = {path: text.encode() for path, text in dict(installed).items()}
+    built = Built(there, frozenset(path for path in there if path.startswith("lib/patrol/")), output)
+    package = Package(files, PackageXml("patrol", {"depend": frozenset(depend)}), built)
     return PackageRun.of(Recording(), package)
 
 
@@ -72,6 +89,60 @@ def test_a_package_installs_itself_what_colcon_would_add(line, pair, what):
 
 def test_a_package_that_installs_all_itself_passes():
     installs_by_itself(packaged(output="Starting >>> patrol\nFinished <<< patrol\n"))
+
+
+OLD_OPTION = "/x/dist.py:289: UserWarning: Unknown distribution option: 'tests_require'\n  warnings.warn(msg)\n"
+DASH = "/x/dist.py:599: SetuptoolsDeprecationWarning: Invalid dash-separated key 'script-dir' in 'develop'\n!!\n"
+
+
+def test_a_warning_of_the_build_counts_once():
+    run = packaged(output=f"Starting >>> patrol\n{OLD_OPTION}{DASH}{OLD_OPTION}warning: build_py: skipping.\n")
+    assert build_warnings(package_of(run)) == [
+        "Unknown distribution option: 'tests_require'",
+        "Invalid dash-separated key 'script-dir' in 'develop'",
+    ]
+    miss = missed(builds_without_warnings, run)
+    assert (miss.expected, miss.saw) == (
+        "no warning of colcon build",
+        "“Unknown distribution option: 'tests_require'”",
+    )
+    assert miss.about == ("Unknown distribution option: 'tests_require'",)
+
+
+def test_a_build_that_hides_its_warnings_has_not_got_rid_of_them():
+    builds_without_warnings(packaged({"setup.py": "import setuptools"}, output="Finished <<< patrol\n"))
+    miss = missed(builds_without_warnings, packaged({"setup.py": "from warnings import filterwarnings"}))
+    assert (miss.saw, miss.about) == ("a setup.py that imports warnings, to hide them", ("",))
+
+
+def test_at_the_top_of_what_is_installed_is_the_package_alone():
+    own = {f"{MODULES}/patrol/node.py": "", f"{MODULES}/patrol-0.0.0-py3.12.egg-info/PKG-INFO": "", "setup.sh": ""}
+    installs_only_its_name(packaged(installed=own))
+    miss = missed(
+        installs_only_its_name,
+        packaged(installed={**own, f"{MODULES}/utils.py": "", f"{MODULES}/scripts/drive.py": ""}),
+    )
+    assert (miss.expected, miss.saw) == ("only patrol at the top of what is installed", "also scripts, utils")
+    assert miss.hint == (
+        "Other packages may install a module of the same name, and Python imports the first one that it finds. "
+        "Move your modules into the folder patrol/ that has __init__.py."
+    )
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "saw"),
+    [
+        (f"{MODULES}/patrol/node.py", "from speeds import FAST", "an import of speeds in node.py"),
+        (f"{MODULES}/patrol/node.py", "import sys\nsys.path.append('..')", "sys.path in node.py"),
+        ("lib/patrol/drive", "import speeds", "an import of speeds in drive"),
+    ],
+)
+def test_a_module_of_the_package_is_imported_by_the_packages_name(path, text, saw):
+    helper = {f"{MODULES}/patrol/speeds.py": "import sys, rclpy", "lib/other/x": "import speeds"}
+    imports_by_its_name(packaged(installed={**helper, path: "from patrol import speeds\nfrom .speeds import FAST"}))
+    miss = missed(imports_by_its_name, packaged(installed={**helper, path: text}))
+    assert (miss.expected, miss.saw) == ("imports from patrol or patrol.MODULE", saw)
+    assert miss.hint == "A module of the package is found by the package's name, from every folder."
 
 
 def test_imports_are_full_names_and_those_of_the_same_package_begin_with_dots():
