@@ -75,7 +75,7 @@ THERE = {
     "checks.mistakes": ("usual_mistake", "compares with wrong formulas"),
     "checks.motion": ("distances_to_line", "how far a path was from a line"),
     "checks.navigation": ("to_go", "needs a World"),
-    "checks.packages": ("imports parsed", "reads what a student wrote"),
+    "checks.packages": ("build_warnings imports parsed", "reads what a student wrote"),
     "checks.services": ("wrong_response", "words of a miss"),
     "checks.shift": ("Shift _statuses _touched", "counts what was delivered"),
     "checks.topics": ("longest_pause", "a pause between stamps"),
