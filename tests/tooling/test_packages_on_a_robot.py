@@ -26,7 +26,7 @@ def magics(notebook):
 
 def write_workspace(folder):
     """Write what the cells of the second notebook write of my_robot."""
-    shutil.copytree(LESSON / "finished", folder / "finished")
+    shutil.copytree(LESSON / "finished", folder / "finished", dirs_exist_ok=True)
     for first, text in magics("launching.ipynb"):
         if first == "%%bash":
             subprocess.run(["bash", "-ec", text], cwd=folder, env=terminal(), check=True)
