@@ -15,6 +15,7 @@ from sim.evidence import since_start
 PERIODS = 0.09, 0.14  # s between two scans: longer than scans can overtake each other
 UNEVEN = 0.2  # of a period
 RADIO = Network(loss=0.2, delay=0.05, jitter=0.04)
+WIFI = Network(delay=0.05, jitter=0.04)  # s; between the robot and a laptop near it, where nothing is lost
 
 
 class RadioLidar(Node):

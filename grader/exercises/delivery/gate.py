@@ -12,6 +12,7 @@ from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
 from grader.responses import Window, from_course, from_student, last_before, top_speed
 from grader.worlds.warehouses import floor_of
+from sim import Network
 from sim.evidence import Recording, Seconds, since_start
 
 OUT, TWIST = "/cmd_vel", "geometry_msgs/msg/Twist"
@@ -25,8 +26,14 @@ NO_STOPS = ("When the robot may not drive, your node publishes nothing, and the 
             "command: "
             "publish zeros then, every time drive is called.")
 ABOUT = 0.05  # m; what is nearer to a limit is on neither side
+LATE = 0.19  # s; the most that a message takes from the robot to the student's laptop
+BUSY = Network(links={
+    ("robot", "laptop"): Network(delay=LATE - 0.09, jitter=0.09),
+    ("laptop", "robot"): Network(delay=0.02, jitter=0.01),
+})
 
-gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, companions=partners, seeds=(2,))
+gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, companions=partners,
+                network=BUSY, seeds=(2,))
 
 
 @gate.check(2, guess="Leave the subscriptions unchanged, and publish at the end of drive.")
@@ -105,7 +112,7 @@ def _goals(run: Recording) -> list[tuple[Seconds, Point]]:
 
 
 class KnownState(NamedTuple):
-    """What control could know at a time.
+    """What control certainly knows at a time: what has crossed the network by then.
 
     age: of the older of the two messages, by their stamps (s). why: why it is old. near: how far the nearest
     reported person was (m).
@@ -126,7 +133,7 @@ def _moments(run: Recording) -> list[KnownState]:
     times = [begin + index * STEP for index in range(int((run.ended.stamp - begin) / STEP))]
     found = []
     for now in times:
-        pose, people = (last_before(rows[topic], now) or rows[topic][0] for topic in (POSE, PEOPLE))
+        pose, people = (last_before(rows[topic], now - LATE) or rows[topic][0] for topic in (POSE, PEOPLE))
         age = max(now - since_start(row.message.header.stamp) for row in (pose, people))
         here = Pose2D.from_message(pose.message.pose)
         places = [Pose2D.from_message(one)[:2] for one in people.message.poses]
@@ -168,13 +175,13 @@ def _windows(run: Recording, cause: Callable[[KnownState], str]) -> list[tuple[W
 def _require_at_most(run: Recording, speed: float, cause: Callable[[KnownState], str], hint: str,
                      unsafe: bool = False) -> None:
     """Raises Missed where the robot is faster than that (m/s) although a cause has held for a while."""
-    found = [row for row in _windows(run, cause) if row[0].end - row[0].begin > BRAKING]
+    found = [row for row in _windows(run, cause) if row[0].end - row[0].begin > BRAKING + LATE]
     if not found:
         hint = "Drive at 0.5 m/s while the gate is open: the faults come while the robot drives."
         raise Missed("a robot that drives when the fault comes", "none that drives fast enough", hint)
     for whole, why in found:
-        # At the moment of new messages, the timer that drives may fire after them.
-        window = Window(whole.begin + BRAKING, run.ended.stamp).before(whole.end - STEP)
+        # New messages may arrive at once, and the timer that drives may fire after them.
+        window = Window(whole.begin + BRAKING, run.ended.stamp).before(whole.end - LATE - STEP)
         top = top_speed(window.rows(run.path))
         if top.linear > speed:
             expected = f"at most {speed:.2g} m/s from {window.begin:.3g} s on, because {why}"

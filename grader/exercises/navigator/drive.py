@@ -4,7 +4,8 @@ import math
 
 from grader.checks import Missed, publishes, series, tenths, traveled
 from grader.checks.motion import arrives, ends_with_a_stop, length, stands_still
-from grader.exercise import Exercise
+from grader.companions.radios import WIFI
+from grader.exercise import Exercise, Scenario
 from grader.responses import Window, closest
 from grader.worlds.rooms import yard_from
 from sim.evidence import Recording
@@ -12,7 +13,10 @@ from sim.evidence import Recording
 GOAL = (5.0, 5.0)
 NEAR, STOP = 0.2, 0.1  # meters
 
-drive = Exercise("drive", "To the goal", world=yard_from, seconds=60, seeds=(1, 2), may_end=True)
+drive = Exercise("drive", "To the goal", may_end=True, scenarios=[
+    Scenario(yard_from, 60, 1),
+    Scenario(yard_from, 60, 2, network=WIFI),
+])
 
 
 def _speeds(run: Recording) -> list[float]:

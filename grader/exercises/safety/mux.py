@@ -6,16 +6,21 @@ from grader.checks import Missed, publishes, subscribes
 from grader.checks.no_data import no_data
 from grader.checks.twists import OUT, SAME, TWIST, Speeds, speeds, speeds_text
 from grader.companions.drivers import JOY, NAV, Drivers
-from grader.exercise import Exercise
+from grader.companions.radios import WIFI
+from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, require_standing, same
 from sim.evidence import Message, Recording, Seconds
 
-OLD, BRAKING = 0.68, 1.0  # s: certainly older than the time-out; to stop
-STEP, STEADY, BEGIN, SILENT = 0.1, 0.25, 0.5, 0.3  # s
+OLD, BRAKING = 0.72, 1.0  # s: certainly older than the time-out, with the network's delay; to stop
+STEP, STEADY, BEGIN, SILENT = 0.1, 0.35, 0.5, 0.3  # s
 ZERO = "A 0 from the joystick is a command, too: check how old it is, not how fast."
-FIRST = "Check the joystick first: while its command is recent, the navigator has to wait."
+FIRST = ("Check the joystick first: while its command is less than 0.5 s old, the navigator has to "
+         "wait.")
 
-mux = Exercise("mux", "Two drivers, one robot", world="yard", seconds=15, companions=[Drivers], seeds=(1, 2))
+mux = Exercise("mux", "Two drivers, one robot", scenarios=[
+    Scenario("yard", 15, 1, [Drivers]),
+    Scenario("yard", 15, 2, [Drivers], network=WIFI),
+])
 
 
 class MuxSample(NamedTuple):

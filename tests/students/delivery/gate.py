@@ -148,6 +148,13 @@ class TwoSeconds(Control):
         return self.now() - min(self.pose_at, self.people_at) > 2.0
 
 
+class HasNoPatience(Control):
+    """Enough where news come every 0.1 s and take no time: but over a network they do."""
+
+    def is_old(self):
+        return self.now() - min(self.pose_at, self.people_at) > 0.15
+
+
 class WhenItCame(Control):
     """Takes the time at which news came for the time at which it was seen."""
 

@@ -154,6 +154,18 @@ class StopsTooEarly(GoToGoal):
     near = 0.6
 
 
+class TurnsExactly(GoToGoal):
+    """First turns to within 0.02 rad: but over a network the command to stop turning comes late."""
+
+    def steer(self, command, distance, bearing):
+        if distance < self.near:
+            return
+        if abs(bearing) > 0.02:
+            command.angular.z = math.copysign(0.6, bearing)
+        else:
+            command.linear.x = 0.5
+
+
 class NeverStops(GoToGoal):
     near = -1.0
 

@@ -161,6 +161,12 @@ class HoldsTheJoystickLong(Mux):
     patience = 3.0
 
 
+class HasNoPatience(Mux):
+    """Twice the time between two commands: but over a network one comes late now and then."""
+
+    patience = 0.2
+
+
 class AddsBoth(Mux):
     """The sum of what both want."""
 
