@@ -14,8 +14,7 @@ from sim.evidence import Message, Recording, Seconds
 OLD, BRAKING = 0.72, 1.0  # s: certainly older than the time-out, with the network's delay; to stop
 STEP, STEADY, BEGIN, SILENT = 0.1, 0.35, 0.5, 0.3  # s
 ZERO = "A 0 from the joystick is a command, too: check how old it is, not how fast."
-FIRST = ("Check the joystick first: while its command is less than 0.5 s old, the navigator has to "
-         "wait.")
+FIRST = "Check the joystick first: while its command is less than 0.5 s old, the navigator has to wait."
 
 mux = Exercise("mux", "Two drivers, one robot", scenarios=[
     Scenario("yard", 15, 1, [Drivers]),
