@@ -17,11 +17,12 @@ from grader.companions.qos import LATCHED
 from grader.companions.transforms import transform
 from grader.geometry import Pose2D
 from grader.geometry.ground import RESOLUTION, ground
+from sim.evidence import Seconds
 from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
 from sim.world import World
 
-AHEAD = SECOND // 10
+AHEAD, PERIOD = SECOND // 10, 0.05  # ns, s
 
 
 def made_for(node: type[Node], **attributes: Any) -> type[Node]:
@@ -29,13 +30,15 @@ def made_for(node: type[Node], **attributes: Any) -> type[Node]:
     return type(node.__name__, (node,), attributes | {"__module__": node.__module__})
 
 
-def bringup(world: World | str, known: World | None = None) -> list[type[Node]]:
+def bringup(world: World | str, known: World | None = None, late: Seconds = 0.0) -> list[type[Node]]:
     """Return the map server and the localization for a world, to run beside a navigator.
 
-    known: the world as the map shows it, where something in the real one is in no map.
+    known: the world as the map shows it, where something in the real one is in no map. late: as in
+    Localization.
     """
     world = World.load(world) if isinstance(world, str) else world
-    return [made_for(MapServer, world=known or world), made_for(Localization, start=world.start)]
+    map_server = made_for(MapServer, world=known or world)
+    return [map_server, made_for(Localization, start=world.start, late=late)]
 
 
 class MapServer(Node):
@@ -80,19 +83,26 @@ class Localization(Node):
     As AMCL does, it stamps this a little ahead, so that the pose of a measurement of just now can be looked
     up. It trusts the odometry and knows where the robot started, so the transform is always the same. AMCL
     compares the lidar with the map and corrects the transform all the time.
+
+    late: how long after its start it publishes the first one (s); AMCL first needs a scan and a map.
     """
 
     start: ClassVar[tuple[float, float, float]]
+    late: ClassVar[Seconds] = 0.0
 
     def __init__(self) -> None:
         super().__init__("localization")
         self.publisher = self.create_publisher(TFMessage, "/tf", 10)
         message = TFMessage(transforms=[transform("map", "odom", Pose2D(*self.start))])
         self.message = Template(message, [f"transforms.0.{field}" for field in STAMP])
-        self.create_timer(0.05, self.publish)
+        self.skipped = round(self.late / PERIOD)  # calls of the timer
+        self.create_timer(PERIOD, self.publish)
 
     def publish(self) -> None:
-        """Publish the transform from map to odom."""
+        """Publish the transform from map to odom, if it is time."""
+        if self.skipped:
+            self.skipped -= 1
+            return
         until = self.get_clock().now().nanoseconds + AHEAD
         self.publisher.publish(self.message.fill(*divmod(until, SECOND)))
 

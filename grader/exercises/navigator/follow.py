@@ -13,7 +13,7 @@ from grader.exercise import Exercise, Scenario
 from grader.geometry import Point, Pose2D
 from grader.geometry.ground import drivable
 from grader.worlds.rooms import world_of
-from sim.evidence import Recording
+from sim.evidence import Recording, Seconds
 
 NEAR = 0.15  # meters from the path's end
 # Meters from the path: pure pursuit stays within 9 cm in all worlds, and within 7 cm in a maze. With half the
@@ -26,6 +26,7 @@ CORNERS = ("If it cuts a corner, look less far ahead. If it swings wide, it turn
 FASTEST = 1.0  # m/s that a student may want
 AHEAD = 0.3  # meters: how far ahead of the robot the assignment steers for
 NEXT = 1.0  # meters of the path in which its next point is looked for
+LATE = 2.0  # s after its start the localization first publishes, in one of the runs: after the path
 
 
 def _settled(run: Recording) -> bool:
@@ -34,15 +35,15 @@ def _settled(run: Recording) -> bool:
     return (at_goal and stood_still(run, 2.0)) or is_hopeless(run, patience=10.0)
 
 
-def _scenario(kind: str, seed: int) -> Scenario:
+def _scenario(kind: str, seed: int, late: Seconds = 0.0) -> Scenario:
     def companions(seed: int) -> list[Any]:
         world = world_of(kind, seed)
-        return [made_for(Planner, world=world), made_for(Localization, start=world.start)]
+        return [made_for(Planner, world=world), made_for(Localization, start=world.start, late=late)]
 
     return Scenario(lambda seed: world_of(kind, seed), 90, seed, companions, _settled)
 
 
-follow = Exercise("follow", "Along the path", scenarios=[_scenario("clutter", 2), _scenario("maze", 1)],
+follow = Exercise("follow", "Along the path", scenarios=[_scenario("clutter", 2), _scenario("maze", 1, LATE)],
                   may_end=True)
 
 

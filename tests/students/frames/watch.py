@@ -2,11 +2,12 @@
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.time import Time
 
 from grader.exercises.frames import Watcher
 from sim import Process
 
-PARTS = ("Both",)
+PARTS = ("Both", "Impatient")
 
 
 class Both(Watcher):
@@ -22,6 +23,19 @@ class Both(Watcher):
         command = Twist()
         command.linear.x = 0.1
         self.other.publish(command)
+
+
+class Impatient(Watcher):
+    """Gives up where a frame isn't there within a second."""
+
+    looks = 0
+
+    def watch(self):
+        self.looks += 1
+        known = self.buffer.can_transform("tower/base_link", "scout/base_link", Time())
+        if self.looks == 10 and not known:
+            raise SystemExit("No frame scout/base_link: nothing to watch")
+        super().watch()
 
 
 def launch():
@@ -94,6 +108,10 @@ def remapped_the_other_way():
 def another_name():
     remappings = [("cmd_vel", "/tower/cmd_vel"), ("__node", "guard")]
     return Process(Watcher, parameters={"target": "scout"}, remappings=remappings)
+
+
+def gives_up_after_a_second():
+    return Process(Impatient, parameters={"target": "scout"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
 
 
 def drives_both():

@@ -162,6 +162,16 @@ class ByOdometryAlone(Follower):
         return self.frames.get("base_link")
 
 
+class NeedsThePoseAtOnce(Follower):
+    """Does not wait for the localization: the pose is None then."""
+
+    def drive(self):
+        command = Twist()
+        if self.path and math.dist(self.pose[:2], self.path[-1]) > self.near:
+            command.linear.x, command.angular.z = self.steer(self.carrot())
+        self.publisher.publish(command)
+
+
 class BearingInDegrees(Follower):
     def steer(self, point):
         x, y, yaw = self.pose
