@@ -18,7 +18,7 @@ def explain(name: str) -> str:
     if name in rows["pypi"]:
         return (
             f"`{name}` is a Python package that is not installed here: `%pip install {rows['pypi'][name]}` "
-            "in a cell installs it. Marking has it only if the instructor installs it, too."
+            "in a cell installs it. It is available for marking only if the instructor installs it, too."
         )
     if name in rows["ros"]:
         return _explain_ros(name, rows["ros"][name])

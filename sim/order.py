@@ -61,11 +61,11 @@ class Order:
         if order is None or order == "" or isinstance(order, Order):
             return order or None
         if isinstance(order, bool) or not isinstance(order, int | str):
-            raise TypeError(f"order must be a whole number, or a text such as 'k3f9'; it is {order!r}.")
+            raise TypeError(f"order must be a whole number, or a string such as 'k3f9'; it is {order!r}.")
         form = _FORM.fullmatch(str(order))
         if form is None:
             raise ValueError(
-                f"order must be 0 or more, or the text of an order such as 'k3f9'; it is {order!r}."
+                f"order must be 0 or more, or the string of an order such as 'k3f9'; it is {order!r}."
             )
         level, key, spread, late, only = form.group("level", "key", "spread", "late", "only")
         if key == "0":

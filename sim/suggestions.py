@@ -63,7 +63,7 @@ def _describe_edit(found: str, wanted: str, before: str) -> str:
     place = f"after “{before.split(' ')[-1] or before}”" if before.strip() else "at the beginning"
     if not found:
         return f"“{wanted}” is missing {place}"
-    return f"“{found}” {place} is too much" if not wanted else f"write “{wanted}” for “{found}” {place}"
+    return f"remove “{found}” {place}" if not wanted else f"write “{wanted}” for “{found}” {place}"
 
 
 def _base_name(name: str) -> str:

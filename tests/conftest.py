@@ -88,7 +88,7 @@ def _skipped_without_a_sandbox() -> Generator[None, object, object]:
     except SandboxMissing:
         if sandboxes_can_be_made():
             raise
-    pytest.skip("this system lets bubblewrap make no sandbox: allow user namespaces")
+    pytest.skip("this system doesn't let bubblewrap make a sandbox: allow user namespaces")
 
 
 @pytest.hookimpl(wrapper=True)

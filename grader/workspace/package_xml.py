@@ -44,7 +44,7 @@ def parse_package_xml(sources: Sources, package: str, build_type: str = PYTHON) 
     root = _parsed(data, place)
     name = (root.findtext("name") or "").strip()
     if name != package:
-        raise InvalidFiles(f"{place}/{FILE} gives its name as {name[:60]!r}; expected {package}.")
+        raise InvalidFiles(f"{place}/{FILE} gives its name as {name[:60]!r}. It has to be {package}.")
     kind = (root.findtext("export/build_type") or "").strip()
     if kind != build_type:
         saw = f"gives {kind[:60]!r} as its build type" if kind else "has no build type"

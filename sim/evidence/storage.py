@@ -102,7 +102,7 @@ def read(path: Path, kind: type[_D]) -> _D:
     except StorageError:
         raise
     except WorldError as error:
-        raise StorageError(f"{path} holds a world that cannot be: {error}") from None
+        raise StorageError(f"{path} contains a world that is not possible: {error}") from None
     except Exception as error:  # no list could hold all that a damaged file raises in the libraries below
         raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
 
@@ -112,7 +112,7 @@ def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
     attachments = {item.name: item.data for item in reader.iter_attachments()}
     if ATTACHMENT not in attachments:
         raise StorageError(
-            f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
+            f"{path} is an MCAP file, but not a recording that this course saved: it has no {ATTACHMENT}."
         )
     rest = _unpack(attachments[ATTACHMENT])
     if rest["format"] != FORMAT:
@@ -135,7 +135,7 @@ def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
     restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in known.items()}
     recording = kind(published=published, **restored)
     if digest_of(recording) != rest["digest"]:
-        raise ValueError("its digest is another")
+        raise ValueError("its digest differs")
     return recording
 
 

@@ -34,7 +34,7 @@ def spin_error(what: str, node: Any = None) -> SpinOutsideRunError:
     return SpinOutsideRunError(
         f"{what} was stopped after {LIMIT:g} s: in a notebook it waits on the wall clock and never returns, "
         f"and no robot can reach it. {replaced}, with `from sim import run`: it runs the same code in "
-        'simulated time, beside a robot if you add world="room". On a robot the code stays as it is. '
+        'simulated time, with a robot if you add world="room". On a real robot the code stays as it is. '
         "rclpy has been shut down."
     )
 

@@ -190,11 +190,11 @@ def why_no_package(package: str) -> str:
 
 def _why_no_program(prefix: Path, package: str, name: str, programs: list[str]) -> str:
     if name in programs:
-        return f"{name} of {package} is no Python program. A run takes those alone; ros2 run starts it."
+        return f"{name} of {package} is not a Python program. A run starts only those; ros2 run starts it."
     if (prefix / "bin" / name).is_file():
         return (
-            f"{name} was installed into bin, and not into lib/{package}. "
-            f"In setup.cfg, [install] must say install_scripts=$base/lib/{package}."
+            f"{name} was installed into bin, not into lib/{package}. In setup.cfg, [install] must set "
+            f"install_scripts=$base/lib/{package}."
         )
     if (prefix / "lib" / package / name).is_file():
         return (
@@ -208,10 +208,10 @@ def _why_no_program(prefix: Path, package: str, name: str, programs: list[str]) 
         where, how = "'console_scripts' of setup.py", "Name one in 'console_scripts' of its setup.py"
     if not programs:
         return f"{package} has none. {how}, and build it again."
-    return f"{_no_such(package, name, programs)} What is new in {where} is there after the next colcon build."
+    return f"{_no_such(package, name, programs)} Changes in {where} take effect after the next colcon build."
 
 
 def _no_such(package: str, name: str, programs: list[str]) -> str:
     near = closest_match(name, programs)
     guess = f" Did you mean {near}?" if near else ""
-    return f"{package} has {', '.join(programs)}, and no {name}.{guess}"
+    return f"{package} has {', '.join(programs)}, but no {name}.{guess}"

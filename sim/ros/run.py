@@ -44,8 +44,8 @@ def run(
         so.
     expect_error: the programs fail on purpose. Otherwise the first error in them, or why they got stuck, is
         shown at the end in a notebook or a terminal, also with `quiet`.
-    order: 0 for the usual order of what happens at the same time. Any other number, or a text such as "k3f9",
-        names another order that is possible on a robot: of callbacks, programs and messages.
+    order: 0 for the usual order of what happens at the same time. Any other number, or a string such as
+        "k3f9", names another order that is possible on a robot: of callbacks, programs and messages.
 
     Equal nodes, world, seed and order give equal recordings. Raises TypeError or ValueError for arguments
     that can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook

@@ -59,7 +59,9 @@ class Session:
         self._specs = [as_process(as_launch_program(node), caller) for node in nodes]
         working = active()
         if working is not None and working.thread == threading.get_ident():
-            raise RuntimeError(f"{caller}() can't start another run here: this is a node of one under way.")
+            raise RuntimeError(
+                f"{caller}() can't start another run here: this is a node of a run in progress."
+            )
         if not 0 < seconds < 1e6:
             raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
         if not isinstance(seed, int) or seed < 0:

@@ -23,7 +23,7 @@ def source(script: str | Path) -> None:
     """
     path = Path(script).resolve()
     if not path.is_file():
-        raise FileNotFoundError(f"There is no {script}: colcon build, said in the workspace, writes it.")
+        raise FileNotFoundError(f"There is no {script}: colcon build in the workspace creates it.")
     changed = _changed_variables(path)
     before = os.environ.get(PYTHONPATH, "").split(os.pathsep)
     os.environ.update(changed)

@@ -20,9 +20,9 @@ def why_unavailable(package: str) -> str:
             if error and file.parent.name == package:  # colcon builds it as a plain Python package
                 return f"{os.path.relpath(file)} is not valid: {error}. Correct it, and build again."
         if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
-            return f"it is built, and not sourced: source('{shown}/install/setup.bash') does that."
+            return f"it is built but not sourced: source('{shown}/install/setup.bash') does that."
         if any(name == package for name, _ in descriptions.values()):
-            return f"it is in {shown}/src, and not built: run colcon build in {shown}."
+            return f"it is in {shown}/src but not built: run colcon build in {shown}."
     return ""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# The words after `ros2`, and the end of the sentence "`ros2 ...` is not here: ...".
+# The words after `ros2`, and the end of the sentence "`ros2 ...` is not available here: ...".
 COMMANDS = {
     "component": "components are C++ libraries. Use `ros2 run`, or Node in a launch file, instead.",
     "daemon": "each command discovers the nodes by itself. Use `--spin-time` to let it wait longer instead.",
@@ -82,7 +82,7 @@ OPTIONS["wtf"] = OPTIONS["doctor"]
 
 def absent_command(words: str) -> str:
     """The sentence on a command or verb, such as "bag burst", that is not here; "" for any other."""
-    return f"`ros2 {words}` is not here: {COMMANDS[words]}" if words in COMMANDS else ""
+    return f"`ros2 {words}` is not available here: {COMMANDS[words]}" if words in COMMANDS else ""
 
 
 def absent_option(words: str, option: str) -> str:
@@ -90,4 +90,4 @@ def absent_option(words: str, option: str) -> str:
     option = option.split("=")[0]
     why = OPTIONS.get(words, {}).get(option)
     end = "." if why and why.endswith("Leave it out") else " instead."
-    return f"`ros2 {words} {option}` is not here: {why}{end}" if why else ""
+    return f"`ros2 {words} {option}` is not available here: {why}{end}" if why else ""

@@ -24,8 +24,8 @@ def selected_domain() -> int:
     text = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not text.isdecimal() or int(text) > LAST_DOMAIN:
         raise CliError(
-            f"ROS_DOMAIN_ID is {text!r}, and a domain is a whole number from 0 to {LAST_DOMAIN}:"
-            " export ROS_DOMAIN_ID=42"
+            f"ROS_DOMAIN_ID is {text!r}, but a domain is a whole number from 0 to {LAST_DOMAIN}: export "
+            "ROS_DOMAIN_ID=42"
         )
     return int(text)
 

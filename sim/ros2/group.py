@@ -114,7 +114,7 @@ def build_parser(
     make_completer: returns argcomplete's completer, from that of an argument and its verb's `without_system`.
     more_options: those that a command and verb, such as "topic echo", has in addition.
     """
-    parser = Parser(prog="ros2", description="Look into a running ROS 2 system, and speak to it.")
+    parser = Parser(prog="ros2", description="Inspect a running ROS 2 system, and interact with it.")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
     for group in groups:
         command = commands.add_parser(group.name, help=group.help, description=group.help)

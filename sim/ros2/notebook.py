@@ -67,7 +67,5 @@ def _system() -> System:
             latest.player.play_frame(0.0)  # the play has just begun: create its nodes
         return PlayedSystem(latest.player)
     if latest.recording is None:
-        raise CliError(
-            "Nothing has run yet: start nodes with run(...) or play(...), and then ask about them."
-        )
+        raise CliError("Nothing has run yet: start nodes with run(...) or play(...), and then inspect them.")
     return RecordedSystem(latest.recording)

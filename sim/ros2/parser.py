@@ -17,17 +17,17 @@ from sim.ros2.system import CliError, Output, System
 # The modules in `verbs` that add verbs to a command, in this order, and the command's help.
 COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "action": (("action",), "Actions: list them, send a goal"),
-    "bag": (("bag", "bag_play"), "Bags: record messages, look at them, publish them again"),
+    "bag": (("bag", "bag_play"), "Bags: record messages, inspect them, play them back"),
     "doctor": (("doctor", "hello"), "Check ROS setup and other potential issues"),
     "interface": (("interface",), "Types of messages, services and actions"),
     "launch": (("launch",), "Run a launch file"),
     "lifecycle": (("lifecycle",), "Nodes with a lifecycle: their states and transitions"),
-    "node": (("node",), "Nodes: which there are, and how each is connected"),
+    "node": (("node",), "Nodes: list them, show how each is connected"),
     "param": (("param",), "Parameters of nodes: list, get, set, describe, dump, load"),
     "pkg": (("pkg", "pkg_create"), "Various package related sub-commands"),
     "run": (("run",), "Run a package specific executable"),
     "service": (("service", "service_echo"), "Services: list them, call one"),
-    "topic": (("topic", "echo", "publishing"), "Topics: list, listen, measure, publish"),
+    "topic": (("topic", "echo", "publishing"), "Topics: list, echo, measure, publish"),
     "wtf": (("doctor", "hello"), "Use `wtf` as alias to `doctor`"),
 }
 FAILED = 1  # exit status

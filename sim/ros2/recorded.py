@@ -92,8 +92,8 @@ class RecordedSystem(System):
     def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
         """Always raises CliError, because no nodes are running."""
         raise CliError(
-            "Nothing runs any more: this is the recording of the last run. Start one with play(...), and try"
-            " again while it goes on."
+            "Nothing is running any more: this is the recording of the last run. Start one with play(...), "
+            "and try again while it runs."
         )
 
 
@@ -177,7 +177,7 @@ class PlayedSystem(RecordedSystem):
         """Play for a simulated time at most, and yield after each frame. Raises CliError if it is paused."""
         player, limit = self._player, self.now + seconds
         if player.paused:
-            raise CliError("The play is paused, so nothing happens in it: let it go on, and try again.")
+            raise CliError("The play is paused, so nothing happens in it: resume it, and try again.")
         yield
         while not player.over and not enough() and self.now < limit - 1e-9:
             player.play_frame(limit, enough)

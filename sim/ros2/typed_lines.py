@@ -79,5 +79,5 @@ def words_of(command: str) -> list[str]:
     found += re.findall(r"[$`]", IN_SINGLE_QUOTES.sub("", command))
     if found:
         instead = INSTEAD.get(found[0], QUOTES)
-        raise InvalidLine(f"`{found[0]}` needs a shell, and there is none here: {instead}")
+        raise InvalidLine(f"`{found[0]}` needs a shell, but there is none here: {instead}")
     return words

@@ -48,7 +48,7 @@ def plot_frames(recording: Recording) -> GraphPlot:
     for child, several in parents.items():
         if len(set(several)) > 1:
             diagram.reasons.append(
-                f"{child} has two parents, {' and '.join(dict.fromkeys(several))}: that is no tree."
+                f"{child} has two parents, {' and '.join(dict.fromkeys(several))}: that is not a tree."
             )
         for parent in several:
             gap = len(diagram.reasons) if len(set(several)) > 1 else 0
@@ -56,7 +56,7 @@ def plot_frames(recording: Recording) -> GraphPlot:
     roots = [frame for frame in dict.fromkeys(one.parent for one in transforms) if frame not in parents]
     if len(roots) > 1:
         names = " and ".join(roots)
-        diagram.reasons.append(f"There are {len(roots)} trees, and no way leads between {names}.")
+        diagram.reasons.append(f"There are {len(roots)} trees, and no path connects {names}.")
     if not transforms:
         diagram.rows.append("No node published a frame.")
         diagram.boxes[_key("")] = GraphBox("rest", ("no frames",))

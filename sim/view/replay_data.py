@@ -88,7 +88,7 @@ def motion(recording: Recording) -> dict[str, Any]:
     """The poses of all bodies, with stamps. Raises ValueError if nothing has moved yet."""
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
-        raise ValueError("this run moved nothing yet: it has no pose to draw")
+        raise ValueError("nothing has moved in this run yet: it has no pose to draw")
     every = sorted({stamp for track in tracks for stamp in stamps(track)})
     times = thinned(every, POSES // len(tracks))
     columns, there = [], []

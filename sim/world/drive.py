@@ -43,8 +43,8 @@ class Drive:
         """
         if not (math.isfinite(v) and math.isfinite(w)):
             raise CommandError(
-                f"Velocity commands are finite numbers; this one was {v} m/s and {w} rad/s: "
-                "check how it was worked out."
+                f"Velocity commands are finite numbers; this one was {v} m/s and {w} rad/s: check how it was "
+                "calculated."
             )
         model = self._model
         self._target_v = min(max(v, -model.max_v), model.max_v)

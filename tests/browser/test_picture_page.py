@@ -114,7 +114,7 @@ def test_it_begins_at_the_end_and_can_be_stepped(page, rammed, tmp_path):
     before = picture.time()
     picture.click("One frame back")
     assert picture.time() == pytest.approx(before - 0.05, abs=0.011)
-    picture.click("One frame on")
+    picture.click("One frame forward")
     assert picture.time() == pytest.approx(before, abs=0.011)
 
 
@@ -371,7 +371,7 @@ def test_a_run_without_a_robot_replays_its_topics(page, tmp_path):
     assert picture.root.locator(".stage").count() == 0
     assert picture.root.locator(".topic").all_inner_texts() == ["/chatter\n1 Hz"]
     picture.scrub(0.5)
-    picture.click("One frame on")
+    picture.click("One frame forward")
     assert picture.time() == pytest.approx(2.55, abs=0.1)
 
 

@@ -230,7 +230,7 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing(capfd):
     assert bundle == {"text/plain": "0", "text/html": score._repr_html_()}
     said = capfd.readouterr()
     assert said.out == (
-        "(A picture could not be drawn: this run moved nothing yet: it has no pose to draw)\n"
+        "(A picture could not be drawn: nothing has moved in this run yet: it has no pose to draw)\n"
     )
     assert said.err == ""
 

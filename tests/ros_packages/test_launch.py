@@ -238,14 +238,14 @@ def test_a_file_is_included_with_its_folder_and_arguments(tmp_path):
         (
             "no.launch.toml",
             "",
-            "'{}' is no launch file that can be read here: they are in Python (.py), XML (.xml, .launch) "
+            "'{}' is not a launch file that can be read here: they are in Python (.py), XML (.xml, .launch) "
             "or YAML (.yaml).",
         ),
         ("no.launch", None, "[Errno 2] No such file or directory: '{}'"),
         (
             "no.launch.yaml",
             "nodes: []",
-            "{} is no launch file: it has to begin with `launch:`, and a list below it.",
+            "{} is not a launch file: it has to begin with `launch:`, with a list below it.",
         ),
     ],
 )
@@ -545,7 +545,7 @@ def test_yaml_says_the_same(tmp_path):
         ("- node: {exec: a, param: [{name: b}]}", "either a value attribute or nested params are needed"),
         (
             "- node: {exec: a, param: [{name: b, value: 1, type: real}]}",
-            "'real' is no type of a parameter here:",
+            "'real' is not a parameter type here:",
         ),
         ("- node: {exec: a, remap: [a]}", "Attribute 'remap' of Entity 'node' expected to be a list of dict"),
         ("- node: {exec: [a], param: 3}", "Attribute 'param' of Entity 'node' expected to be of type"),

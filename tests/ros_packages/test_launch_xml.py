@@ -127,7 +127,7 @@ def test_a_mistake_is_named_with_its_file_and_line(tmp_path, text, words, line):
 
 def test_the_root_is_launch(tmp_path):
     assert of_xml(tmp_path, "<robot/>", status=1) == fails_with(
-        f"{tmp_path}/some.launch.xml is no launch file: its root has to be <launch>, and is <robot>."
+        f"{tmp_path}/some.launch.xml is not a launch file: its root has to be <launch>, but is <robot>."
     )
 
 

@@ -45,10 +45,14 @@ def test_the_usual_order_is_none(usual):
 @pytest.mark.parametrize(
     ("order", "error", "words"),
     [
-        (-1, ValueError, "order must be 0 or more, or the text of an order such as 'k3f9'; it is -1."),
-        ("k 3", ValueError, "order must be 0 or more, or the text of an order such as 'k3f9'; it is 'k 3'."),
-        (1.5, TypeError, "order must be a whole number, or a text such as 'k3f9'; it is 1.5."),
-        (True, TypeError, "order must be a whole number, or a text such as 'k3f9'; it is True."),
+        (-1, ValueError, "order must be 0 or more, or the string of an order such as 'k3f9'; it is -1."),
+        (
+            "k 3",
+            ValueError,
+            "order must be 0 or more, or the string of an order such as 'k3f9'; it is 'k 3'.",
+        ),
+        (1.5, TypeError, "order must be a whole number, or a string such as 'k3f9'; it is 1.5."),
+        (True, TypeError, "order must be a whole number, or a string such as 'k3f9'; it is True."),
     ],
 )
 def test_what_is_no_order_is_refused(order, error, words):
@@ -153,7 +157,9 @@ def test_an_interrupt_keeps_what_was_found():
 
 def test_the_level_any_says_that_rclpy_always_has_the_usual_order():
     found = explore(TwoTimers, holds=no_errors, level="any", seconds=2)
-    assert "Nothing guarantees the usual order, although today's rclpy always has it." in found.explanation
+    assert (
+        "Nothing guarantees the usual order, although the current rclpy always uses it." in found.explanation
+    )
 
 
 def test_the_students_code_is_as_before_afterwards():

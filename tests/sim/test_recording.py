@@ -239,7 +239,7 @@ def mcap_with(path, attachments):
 def test_someone_elses_mcap_file_is_refused(tmp_path):
     path = mcap_with(tmp_path / "foreign.mcap", {"notes.txt": b"hi"})
     assert refused(path) == (
-        f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
+        f"{path} is an MCAP file, but not a recording that this course saved: it has no {ATTACHMENT}."
     )
 
 

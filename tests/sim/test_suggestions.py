@@ -8,7 +8,7 @@ WANTED = "Hello, robot!"
 CASES = {
     "Hello robot": "Compare the two texts: “,” is missing after “Hello”; “!” is missing after “robot”.",
     "hello, robot!": "Capital letters count: write “Hello, robot!”.",
-    "Hello, robot!!": "Compare the two texts: “!” after “robot!” is too much.",
+    "Hello, robot!!": "Compare the two texts: remove “!” after “robot!”.",
     "Hello, Robot!": "Capital letters count: write “Hello, robot!”.",
     "Hallo, robot!": "Compare the two texts: write “e” for “a” after “H”.",
     "ello, robot!": "Compare the two texts: “H” is missing at the beginning.",

@@ -71,8 +71,8 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     if not Path(launch_file_path).is_file():
         raise FileNotFoundError(f"[Errno 2] No such file or directory: '{launch_file_path}'")
     raise InvalidLaunchFileError(
-        f"'{launch_file_path}' is no launch file that can be read here: they are in Python (.py), "
-        "XML (.xml, .launch) or YAML (.yaml)."
+        f"'{launch_file_path}' is not a launch file that can be read here: they are in Python (.py), XML "
+        "(.xml, .launch) or YAML (.yaml)."
     )
 
 

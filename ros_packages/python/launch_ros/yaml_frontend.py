@@ -75,7 +75,7 @@ def _value(entity: Entity) -> Any:
     if value is None:
         raise RuntimeError("either a value attribute or nested params are needed")
     if kind is not None and kind not in TYPES:
-        raise ValueError(f"'{kind}' is no type of a parameter here: there are {', '.join(TYPES)}.")
+        raise ValueError(f"'{kind}' is not a parameter type here: there are {', '.join(TYPES)}.")
     if not isinstance(value, str):
         return value if kind is None else ParameterValue(value, value_type=TYPES[kind])
     separator = entity.get("value-sep", str, optional=True)

@@ -70,9 +70,9 @@ def parse_urdf(text: str) -> dict[str, Joint]:
     try:
         robot = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
-        raise InvalidDescription(f"The robot description is no XML: {error}") from None
+        raise InvalidDescription(f"The robot description is not XML: {error}") from None
     if robot.tag != "robot":
-        raise InvalidDescription(f"The robot description begins with <{robot.tag}>, and not with <robot>")
+        raise InvalidDescription(f"The robot description begins with <{robot.tag}>, not with <robot>")
     links = [_name(link, "link") for link in robot.findall("link")]
     joints = [_joint(element) for element in robot.findall("joint")]
     for kind, names in (("link", links), ("joint", [joint.name for joint in joints])):
@@ -166,7 +166,7 @@ def _vector(text: str | None, default: Vector, what: str) -> Vector:
         return default
     numbers = [_number(word, what) for word in text.split()]
     if len(numbers) != len(default):
-        raise InvalidDescription(f"{what} is '{text}', and not three numbers")
+        raise InvalidDescription(f"{what} is '{text}', not three numbers")
     x, y, z = numbers
     return x, y, z
 
@@ -175,7 +175,7 @@ def _number(text: str, what: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise InvalidDescription(f"{what} is '{text}', and no number") from None
+        raise InvalidDescription(f"{what} is '{text}', not a number") from None
 
 
 def _transform(translation: Vector, rotation: tuple[float, ...]) -> Transform:

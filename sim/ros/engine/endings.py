@@ -90,5 +90,5 @@ def _pending(engine: Engine, running: RunningCallback) -> list[Any]:
 def _response_to(client: Any) -> str:
     record: ClientRecord | ActionRecord = client._sim
     if isinstance(record, ClientRecord):
-        return f"The answer of service {record.service}"
-    return f"The answer of action {client._action_name}"
+        return f"The response of service {record.service}"
+    return f"The response of action {client._action_name}"

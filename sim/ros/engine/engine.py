@@ -103,7 +103,7 @@ class Engine(Scheduler):
             if pause():
                 return self.can_go_on()
         self.raise_livelock(
-            f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time can not move on"
+            f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time cannot advance"
         )
 
     def run_deadlines(self) -> bool:

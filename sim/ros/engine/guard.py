@@ -226,5 +226,5 @@ class Guard:
             limit = self._total_limit
             return f"The nodes computed for {limit:g} s in all, and were stopped in {where}{line}."
         if self._computing >= COMPUTING_LIMIT:
-            return f"{where} computed for {COMPUTING_LIMIT:g} s without coming to an end{line}."
+            return f"{where} computed for {COMPUTING_LIMIT:g} s without finishing{line}."
         return f"{where} waited for {WAITING_LIMIT:g} s in a call that simulated time can't shorten{line}."

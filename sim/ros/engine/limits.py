@@ -44,8 +44,8 @@ class RunLimits:
         """A callback is about to run. Raises Livelock when too many ran without time moving."""
         if self._callbacks - self._callbacks_before >= MAX_CALLBACKS_PER_INSTANT:
             self._scheduler.raise_livelock(
-                f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self._scheduler.now / SECOND:g} s"
-                " without letting time move on"
+                f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self._scheduler.now / SECOND:g} s "
+                "without letting time advance"
             )
         self._callbacks += 1  # not before: the guard must see that code which swallows the Livelock is stuck
         fiber = self._scheduler.current

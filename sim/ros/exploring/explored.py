@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from sim.evidence import CallbackError, Departure, Recording
 from sim.order import ANY, NETWORK
 
-NO_PROMISE = "Nothing guarantees the usual order, although today's rclpy always has it."
+NO_PROMISE = "Nothing guarantees the usual order, although the current rclpy always uses it."
 _FRAME = re.compile(r'^  File "(?P<file>.+)", line (?P<line>\d+)', re.M)
 
 

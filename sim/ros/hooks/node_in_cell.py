@@ -24,8 +24,8 @@ def not_initialized(original: Callable) -> Callable:
         name = _node_class() if engine() is None and in_notebook() else ""
         if name:
             said = (
-                f"NotInitializedException: {name}() creates the node here, outside a run. Hand over the "
-                f"class, without parentheses: run({name}), not run({name}()); the run creates the node."
+                f"NotInitializedException: {name}() creates the node here, outside a run. Pass the class, "
+                f"without parentheses: run({name}), not run({name}()); the run creates the node."
             )
             self._render_traceback_ = lambda: [said]
 

@@ -33,7 +33,7 @@ def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
             folder = Path(first).absolute().parent
             near = _suggestion(Path(first).name, [*folder.glob("*"), *folder.glob("launch/*")])
             raise NoLaunchFile(f"There is no launch file {first!r} in {os.getcwd()}.{near.removeprefix('.')}")
-        raise NoLaunchFile(f"Package '{first}' has launch files: say which, as in {first} bringup.launch.py.")
+        raise NoLaunchFile(f"Package '{first}' has launch files: name one, as in {first} bringup.launch.py.")
     return _in_package(first, rest[0]), rest[1:]
 
 

@@ -29,8 +29,8 @@ class UnsupportedProgram(Exception):
 
 def _unsupported(program: str) -> UnsupportedProgram:
     return UnsupportedProgram(
-        f"In a run, launch starts Python programs and ros2 commands only, and {program} is neither: "
-        "`ros2 launch` in a terminal starts anything."
+        f"In a run, launch starts only Python programs and ros2 commands, and {program} is neither: `ros2 "
+        "launch` in a terminal starts anything."
     )
 
 

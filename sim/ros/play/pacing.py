@@ -35,8 +35,8 @@ class Pace:
     def speed(self, speed: float) -> None:
         if isinstance(speed, bool) or not isinstance(speed, int | float) or not speed > 0:
             raise ValueError(
-                "speed must be a number more than 0, such as 2.0 for twice as fast as real time;"
-                f" it is {speed!r}."
+                "speed must be a number greater than 0, such as 2.0 for twice as fast as real time; it is "
+                f"{speed!r}."
             )
         self._speed = float(speed)
         self.restart()

@@ -56,8 +56,8 @@ class RecorderBase:
         self._messages += 1
         if self._messages > MAX_MESSAGES_PER_INSTANT:
             self.scheduler.raise_livelock(
-                f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
-                " without letting time move on"
+                f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s without letting "
+                "time advance"
             )
         if self.sent >= MAX_MESSAGES:
             self.scheduler.raise_livelock(

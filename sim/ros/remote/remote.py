@@ -169,7 +169,7 @@ class _RunExchange:
             link.collect()
             answer = self._remote._exchange(do="go", now=run.now, events=link.take_outgoing())
             if "events" not in answer:
-                when = f"The process with the nodes broke off at {run.recorder.now:.3g} s"
+                when = f"The process with the nodes ended unexpectedly at {run.recorder.now:.3g} s"
                 why = "something in it ended the run there, or wrote to its connections"
                 raise RemoteLost(f"{when}: {why}.")
             link.deadline = self._remote.until

@@ -83,8 +83,8 @@ class MachineNode(Node):
     def _count_commands(self) -> None:
         if self._commands > MAX_COMMAND_RATE / SENSOR_RATE:
             self.get_logger().warning(
-                f"More than {MAX_COMMAND_RATE} commands came in a second; 100 are enough: "
-                "check the period of the timer that sends them.",
+                f"More than {MAX_COMMAND_RATE} commands arrived in one second; 100 are enough: check the "
+                "period of the timer that sends them.",
                 throttle_duration_sec=1.0,
             )
         self._commands = 0

@@ -119,7 +119,7 @@ class Robot(Node):
 
     def _warn_of_flood(self) -> None:
         self.get_logger().warning(
-            f"More than {MAX_COMMAND_RATE} velocity commands came in a second; 10 to 20 are enough: "
+            f"More than {MAX_COMMAND_RATE} velocity commands arrived in one second; 10 to 20 are enough: "
             "check the period of the timer that sends them.",
             throttle_duration_sec=1.0,
         )

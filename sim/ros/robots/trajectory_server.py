@@ -84,7 +84,7 @@ class TrajectoryServer:
         elif late >= active.request.extra_time:
             what = f"{name} was {abs(error):.3g} rad from its goal; its tolerance is {tolerance:g} rad"
             if abs(error) <= tolerance:
-                what = f"the arm still moved, at {speed:.3g} rad/s"
+                what = f"the arm was still moving, at {speed:.3g} rad/s"
             self._stop(Result.GOAL_TOLERANCE_VIOLATED, f"{late:.3g} s after the end {what}.")
 
     def _worst(self, errors: Sequence[float], tolerances: Sequence[float]) -> tuple[str, float, float]:

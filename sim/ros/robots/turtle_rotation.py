@@ -69,7 +69,7 @@ class RotateServer:
         if math.isfinite(goal.theta):
             return GoalResponse.ACCEPT
         self._node.get_logger().error(
-            f"Headings are finite numbers; this one was {goal.theta:g}: check how it was worked out."
+            f"Headings are finite numbers; this one was {goal.theta:g}: check how it was calculated."
         )
         return GoalResponse.REJECT
 

@@ -62,7 +62,7 @@ class Arrivals:
         draw, delay = self._choices.order.kept_delay(pair[0], writer.topic, pair[1])
         if delay:
             late = f"{1000 * delay / SECOND:.1f} ms later"
-            text = f"{writer.topic}, which {pair[0]} has kept, reaches {pair[1]} {late}"
+            text = f"{writer.topic}, which {pair[0]} has stored, reaches {pair[1]} {late}"
             self._choices.list(draw, pair[1], "message", text)
         arrival = self._kept[*pair, writer.topic] = now + delay
         return arrival

@@ -14,7 +14,7 @@ from sim.ros2.interface_types import installed_type
 from sim.ros2.system import CliError, Output, System, suggestion
 from sim.ros2.topic_selection import SELECTING, TopicSelection
 
-bag = Group("bag", "Bags: record messages, look at them, publish them again")
+bag = Group("bag", "Bags: record messages, inspect them, play them back")
 PATH = argument("bag_path", type=Path, help="The folder of a bag, or an .mcap file")
 STORAGE = argument("-s", "--storage", choices=["mcap"], default="mcap", help="The only format: mcap")
 
@@ -25,7 +25,7 @@ STORAGE = argument("-s", "--storage", choices=["mcap"], default="mcap", help="Th
     argument("-o", "--output", type=Path, help="The folder to make; by default it is named by the time"),
     STORAGE,
     flag("--no-discovery", help="Only topics present at startup will be recorded"),
-    argument("-p", "--polling-interval", type=int, default=100, help="Changes nothing: it looks often"),
+    argument("-p", "--polling-interval", type=int, default=100, help="Changes nothing: it checks often"),
     argument("--max-cache-size", type=int, help="Changes nothing: each message is written at once"),
     flag("--disable-keyboard-controls", help="Changes nothing: there are none"),
 )

@@ -28,7 +28,7 @@ def window(default: int) -> tuple:
     "hz",
     NAME,
     window(10000),
-    argument("--filter", metavar="EXPR", help="Only measure messages m of which this is true"),
+    argument("--filter", metavar="EXPR", help="Only measure messages m for which this is true"),
 )
 def hz(system: System, options: Namespace) -> None:
     """Print the average publishing rate to screen."""
@@ -71,7 +71,7 @@ def _print_statistic(
 
 def _no_message(system: System, name: str) -> str:
     when = "in this run" if system.finished else f"within {system.time_limit:g} s of the play"
-    return f"No message came on {name} {when}."
+    return f"No message arrived on {name} {when}."
 
 
 def _wait_for_topic(system: System, name: str) -> tuple[str, str]:
@@ -111,7 +111,7 @@ def _only_type(name: str, known: dict[str, list[str]]) -> str:
     *PRINTING,
     flag("--no-lost-messages", help="Changes nothing: lost messages are not reported"),
     flag("--raw", help="Echo the raw binary representation"),
-    argument("--filter", metavar="EXPR", help="Only messages m of which this Python expression is true"),
+    argument("--filter", metavar="EXPR", help="Only messages m for which this Python expression is true"),
     flag("--once", help="Print the first message received and then exit."),
     argument("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting"),
 )

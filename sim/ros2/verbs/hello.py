@@ -36,7 +36,7 @@ MAX_DATAGRAM = 4096  # bytes
 def hello(system: System, options: Namespace) -> None:
     """Check network connectivity between multiple hosts."""
     if system.finished or system.time_limit is not None:
-        raise CliError("`ros2 doctor hello` speaks with other machines: type it in a terminal of each.")
+        raise CliError("`ros2 doctor hello` communicates with other machines: type it in a terminal of each.")
     system.run_with_node(lambda node, output: _hello(node, output, options))
 
 

@@ -7,7 +7,7 @@ from argparse import Namespace
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import CliError, System, is_hidden, suggestion
 
-node = Group("node", "Nodes: which there are, and how each is connected")
+node = Group("node", "Nodes: list them, show how each is connected")
 SECTIONS = {
     "Subscribers": "subscription",
     "Publishers": "publisher",

@@ -47,7 +47,7 @@ def run_(output: Output, options: Namespace) -> None:
     try:
         process = subprocess.Popen(words, env=environment_before())
     except OSError as error:
-        raise CliError(f"{words[0]} can't be started: {error.strerror}. Look at its first line.") from None
+        raise CliError(f"{words[0]} can't be started: {error.strerror}. Check its first line.") from None
     while process.returncode is None:
         with contextlib.suppress(KeyboardInterrupt):  # the program gets SIGINT, too
             process.wait()

@@ -10,7 +10,7 @@ from sim.ros.messages.type_definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import CliError, System, suggestion
 
-topic = Group("topic", "Topics: list, listen, measure, publish")
+topic = Group("topic", "Topics: list, echo, measure, publish")
 NAME = argument(
     "topic_name",
     help="Name of the ROS topic (e.g. '/chatter')",

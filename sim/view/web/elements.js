@@ -48,7 +48,7 @@ function speeds(choices, onChange) {
   const select = make("select", { title: "Speed: simulated seconds in a second", "aria-label": "Speed" });
   select.put = (speed) => { // a speed that was set elsewhere may not be among the choices
     if (![...select.options].some((option) => Number(option.value) === speed)) {
-      const label = speed === Infinity ? "as fast as it goes" : `${speed} ×`;
+      const label = speed === Infinity ? "as fast as possible" : `${speed} ×`;
       select.append(make("option", { value: speed }, label));
     }
     select.value = speed;

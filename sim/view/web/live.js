@@ -123,7 +123,7 @@ class View {
       else this.pad.root.classList.add("below"); // a machine's picture may be low, and the pad would cover it
     }
     this.howTo = this.points ? POINT_HOW : this.drives ? HOW : this.pad ? MOVE_HOW : "";
-    this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, go on step by step, and end it.");
+    this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, advance it step by step, and end it.");
     this.statusLine = make("div", { className: "say", role: "status" });
     this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
     this.legend = make("div", { className: "legend" });

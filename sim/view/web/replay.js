@@ -70,7 +70,7 @@ class Player {
     select.put(run.speed);
     return make("div", { className: "bar" },
       make("div", { className: "group" }, button("back", "One frame back", () => this.step(-1)), this.toggle,
-        button("on", "One frame on", () => this.step(1))),
+        button("on", "One frame forward", () => this.step(1))),
       make("div", { className: "time" }, this.clock, make("span", {}, ` / ${run.end.toFixed(2)} s`)),
       make("div", { className: "scrub" }, this.slider, marks), select, this.statusLine);
   }

@@ -47,7 +47,7 @@ def generate(kind: str, seed: int, parameters: dict[str, Any]) -> dict[str, Any]
     try:
         generator = KINDS[kind](**parameters)
     except ModelError as error:
-        raise WorldError(f"A generated {kind} cannot be: {error.reason}") from error
+        raise WorldError(f"A generated {kind} like that is not possible: {error.reason}") from error
     for attempt in range(_ATTEMPTS):
         try:
             return generator.draw(Random(f"{kind} {seed} {attempt}")) | {"name": f"{kind}_{seed}"}

@@ -118,8 +118,8 @@ class Arm(Machine):
         """
         if len(positions) != len(self._servos) or not all(map(math.isfinite, positions)):
             raise CommandError(
-                f"A command is one finite number (rad) for each of the {len(self._servos)} joints; "
-                f"this one was {list(positions)}: check how it was worked out."
+                f"A command is one finite number (rad) for each of the {len(self._servos)} joints; this one "
+                f"was {list(positions)}: check how it was calculated."
             )
         targets = zip(self._servos, positions, strict=True)
         self._set_target(servo.clamp(position) for servo, position in targets)

@@ -156,7 +156,7 @@ class CartPole(Machine):
         """
         if not math.isfinite(force):
             raise CommandError(
-                f"Efforts are finite numbers (N); this one was {force}: check how it was worked out."
+                f"Efforts are finite numbers (N); this one was {force}: check how it was calculated."
             )
         self._force = min(max(force, -self.model.max_force), self.model.max_force)
         self._steps_left = round(self.model.command_timeout * RATE)

@@ -44,8 +44,8 @@ class Joint(Machine):
         """
         if not math.isfinite(position):
             raise CommandError(
-                f"Joint commands are finite numbers (rad); this one was {position}: "
-                "check how it was worked out."
+                f"Joint commands are finite numbers (rad); this one was {position}: check how it was "
+                "calculated."
             )
         self._target = self._servo.clamp(position)
 

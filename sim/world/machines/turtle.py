@@ -181,4 +181,4 @@ def as_float32(value: float) -> float:
 def _check(what: str, *values: float) -> None:
     if not all(map(math.isfinite, values)):
         shown = ", ".join(f"{value:g}" for value in values)
-        raise CommandError(f"{what} are finite numbers; this one was {shown}: check how it was worked out.")
+        raise CommandError(f"{what} are finite numbers; this one was {shown}: check how it was calculated.")

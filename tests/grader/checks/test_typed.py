@@ -7,7 +7,7 @@ from grader.checks.typed import HINTS, failed_lines, first_failure
 from sim.evidence import Recording
 
 PRINTED = {
-    "`|` needs a shell, and there is none here: leave it out": "needs a shell",
+    "`|` needs a shell, but there is none here: leave it out": "needs a shell",
     "bash: No closing quotation: a quote that is opened has to be closed": "has to be closed",
     "rso2: command not found. Did you mean ros2?": "command not found",
     "Package 'demo' not found: it is not built": "it is not built|colcon build makes it",

@@ -18,7 +18,7 @@ from sim.ros.packages import PackageNotFound, packages
 
 SCIPY = (
     "`scipy` is a Python package that is not installed here: `%pip install scipy` in a cell installs it. "
-    "Marking has it only if the instructor installs it, too."
+    "It is available for marking only if the instructor installs it, too."
 )
 CV_BRIDGE = (
     "`cv_bridge` (converts between ROS images and OpenCV's arrays) is a ROS package that the course does not "
@@ -102,14 +102,14 @@ def test_interfaces_that_were_not_built_or_not_sourced_are_named(tmp_path, monke
         "<package><name>my_interfaces</name></package>"
     )
     error = missing_module("my_interfaces")
-    assert advice(error) == "Package `my_interfaces`: it is in ws/src, and not built: run colcon build in ws."
+    assert advice(error) == "Package `my_interfaces`: it is in ws/src but not built: run colcon build in ws."
     (tmp_path / "ws/install").mkdir()
     (tmp_path / "ws/install/.colcon_install_layout").write_text("isolated\n")
     index = tmp_path / "ws/install/my_interfaces/share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
     (index / "my_interfaces").write_text("")
     assert advice(error) == (
-        "Package `my_interfaces`: it is built, and not sourced: source('ws/install/setup.bash') does that."
+        "Package `my_interfaces`: it is built but not sourced: source('ws/install/setup.bash') does that."
     )
 
 

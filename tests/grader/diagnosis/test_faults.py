@@ -52,7 +52,7 @@ def test_an_endless_loop_of_a_node_differs_from_one_of_a_main(student):
 
 def test_an_echo_of_itself_is_a_livelock():
     fault = fault_of(misfits.Echo)
-    assert fault.saw == "20000 callbacks ran at t = 1 s without letting time move on."
+    assert fault.saw == "20000 callbacks ran at t = 1 s without letting time advance."
     assert fault.hint == (
         "Callbacks trigger each other without any time passing: two nodes that answer each other's every message, or a timer with a period of 0. Let a timer with a period set the pace."
     )
@@ -61,7 +61,7 @@ def test_an_echo_of_itself_is_a_livelock():
 
 def test_a_flood_of_messages_differs_from_an_echo():
     fault = fault_of(Flooding)
-    assert fault.saw == "/talker sent 20000 messages at t = 1 s without letting time move on."
+    assert fault.saw == "/talker sent 20000 messages at t = 1 s without letting time advance."
     assert fault.hint == (
         "A loop publishes again and again without any time passing: let a timer set the pace, or pause in each iteration."
     )

@@ -37,7 +37,7 @@ def test_a_package_of_interfaces_says_how_it_is_built_and_in_which_group_it_is()
             b"<!DOCTYPE a [<!ENTITY b 'c'>]><package/>",
             f"{PLACE} has a <!DOCTYPE> or an <!ENTITY>. It needs neither: leave them out.",
         ),
-        (b"<package/>", f"{PLACE} gives its name as ''; expected greeter."),
+        (b"<package/>", f"{PLACE} gives its name as ''. It has to be greeter."),
         (
             b"<package><name>greeter</name></package>",
             f"{PLACE} has no build type. In <export> it needs <build_type>ament_python</build_type>.",

@@ -22,7 +22,7 @@ class B(Node):
         1 / 0
 """
 SAW = "ZeroDivisionError: division by zero (in B.tick, cell [1], line 9, at 0.5 s)"
-HINT = "Hint: The number after `/`, `//` or `%` in that line is 0 at that moment."
+HINT = "Hint: The number after `/`, `//` or `%` on that line is 0 at that moment."
 
 
 class Crash(Exception):

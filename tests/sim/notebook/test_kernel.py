@@ -104,8 +104,8 @@ def test_a_misspelt_class_and_an_object_for_a_class_are_named_in_one_line(kernel
     shown = kernel.run("run(Robbot, seconds=1)", "use").strip()
     assert shown == "NameError: There is no `Robbot`. Did you mean `Robot`?"
     assert kernel.run("run(Robot(), seconds=1)", "use").strip() == (
-        "NotInitializedException: Robot() creates the node here, outside a run. Hand over the class, "
-        "without parentheses: run(Robot), not run(Robot()); the run creates the node."
+        "NotInitializedException: Robot() creates the node here, outside a run. Pass the "
+        "class, without parentheses: run(Robot), not run(Robot()); the run creates the node."
     )
 
 

@@ -31,7 +31,7 @@ PASTED = TUTORIAL + '\nif __name__ == "__main__":\n    main()\n'
 WHY = (
     "was stopped after 2 s: in a notebook it waits on the wall clock and never returns, and no robot can "
     "reach it. Write run({instead}, with `from sim import run`: it runs the same code in simulated time, "
-    'beside a robot if you add world="room". On a robot the code stays as it is. rclpy has been shut down.'
+    'with a robot if you add world="room". On a real robot the code stays as it is. rclpy has been shut down.'
 )
 CLEAN = "rclpy.ok(), rclpy.init(), Node('again').destroy_node(), rclpy.shutdown()"
 

@@ -87,7 +87,7 @@ def test_positions_are_gone_to_and_the_frames_follow():
 def test_a_command_of_another_form_is_reported_and_ignored(commander):
     recording = run(commander, world="arm", seconds=1, quiet=True)
     words = "A command is one finite number (rad) for each of the 2 joints; "
-    words += f"this one was {list(commander.positions)}: check how it was worked out."
+    words += f"this one was {list(commander.positions)}: check how it was calculated."
     assert logged(recording) == [(0.5, words)]
     assert received(recording)[1.0] == (0.0, 0.0, 0.0, 0.0)
 
@@ -180,7 +180,7 @@ def test_an_arm_that_still_moves_at_the_end_has_not_arrived():
     """After 0.3 s the shoulder does 0.3 * 4 rad/s."""
     message = goal(*TOO_FAST, end=[("shoulder_joint", 3.0)], patience=0.1)
     assert dialogue(following((0.0, message)))[-1] == (
-        0.3, "ABORTED -5 0.1 s after the end the arm still moved, at 1.2 rad/s.",
+        0.3, "ABORTED -5 0.1 s after the end the arm was still moving, at 1.2 rad/s.",
     )  # fmt: skip
 
 

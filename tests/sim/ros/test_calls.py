@@ -154,7 +154,7 @@ def test_a_request_sent_past_rclpys_client_has_no_client():
 def test_calls_without_end_are_stopped():
     recording = recorded(services.Adder, callers.CallsForEver)
     assert why(recording) == (
-        "livelock", 1.0, "/customer sent 20000 messages at t = 1 s without letting time move on.",
+        "livelock", 1.0, "/customer sent 20000 messages at t = 1 s without letting time advance.",
     )  # fmt: skip
     assert len(recording.calls) == 20000
 

@@ -74,7 +74,7 @@ def test_what_is_received_is_the_simulation_under_the_same_pushes():
 
 def test_an_effort_that_is_no_number_is_reported_once_a_second_and_ignored():
     recording = run(students.PushesNoNumber, world="cart_pole", seconds=2.5, quiet=True)
-    words = "Efforts are finite numbers (N); this one was nan: check how it was worked out."
+    words = "Efforts are finite numbers (N); this one was nan: check how it was calculated."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "cart_pole")}
     assert received(recording) == received(run(world="cart_pole", seconds=2.5, quiet=True))
@@ -84,6 +84,6 @@ def test_ten_thousand_efforts_a_second_are_all_received_and_reported_once_a_seco
     recording = run(students.Flood, world="cart_pole", seconds=1, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/cart_effort")) == 10_010
-    words = "More than 1000 commands came in a second; 100 are enough: "
+    words = "More than 1000 commands arrived in one second; 100 are enough: "
     words += "check the period of the timer that sends them."
     assert logged(recording) == [(0.05, words)]

@@ -73,7 +73,7 @@ FIRST_ERROR = {
     ),
     errors.starts_a_run: (
         0.0, "/starts_a_run", "starts_a_run", "RuntimeError",
-        "run() can't start another run here: this is a node of one under way.",
+        "run() can't start another run here: this is a node of a run in progress.",
     ),
     errors.wrong_qos: (
         0.0, "/qos", "wrong_qos", "TypeError",

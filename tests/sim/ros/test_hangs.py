@@ -10,7 +10,7 @@ from sim.ros.engine import guard
 from tests.sim.ros.evidence import raised, why
 from tests.students.engine import hangs, mains, timing
 
-LOOP = "{} computed for {} s without coming to an end, at line {}: {}."
+LOOP = "{} computed for {} s without finishing, at line {}: {}."
 STUCK = (
     "{}.tick of node /hanging has waited since t = 1 s and never returned, at line {}: {}. It waits for {}."
 )
@@ -63,7 +63,7 @@ def test_a_loop_is_stopped_whatever_it_does(node):
     reason, stamp, detail = why(recording)
     assert (reason, stamp) == ("hang", 1.0)
     name = f"{node.__name__}.tick"
-    assert detail.startswith(f"{BUSY.format(name)} computed for 0.4 s without coming to an end, at line ")
+    assert detail.startswith(f"{BUSY.format(name)} computed for 0.4 s without finishing, at line ")
 
 
 def test_a_call_that_no_one_answers_is_interrupted(usual, monkeypatch):
@@ -151,13 +151,13 @@ def test_sleeping_is_no_hang(node):
 @pytest.mark.usefixtures("usual")
 def test_callbacks_that_never_let_time_go_on_are_stopped(node):
     assert why(run(node, seconds=3, quiet=True)) == (
-        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time move on.",
+        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time advance.",
     )  # fmt: skip
 
 
 def test_a_program_can_not_swallow_the_end_of_a_ping_pong(usual):
     assert why(run(hangs.swallows_ping_pong, seconds=3, quiet=True)) == (
-        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time move on.",
+        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time advance.",
     )  # fmt: skip
 
 

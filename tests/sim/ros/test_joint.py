@@ -74,7 +74,7 @@ def test_new_positions_midway_keep_to_the_limits():
 
 def test_a_command_that_is_no_number_is_reported_once_a_second_and_ignored():
     recording = run(students.NoNumber, world="joint", seconds=2.5, quiet=True)
-    words = "Joint commands are finite numbers (rad); this one was inf: check how it was worked out."
+    words = "Joint commands are finite numbers (rad); this one was inf: check how it was calculated."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "joint")}
     assert (recording.errors, received(recording)[-1]) == ([], (2.5, 0.0, 0.0))
@@ -84,7 +84,7 @@ def test_ten_thousand_commands_a_second_are_all_received_and_reported_once_a_sec
     recording = run(students.Flood, world="joint", seconds=2, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/joint_commands")) == 20_001
-    words = "More than 1000 commands came in a second; 100 are enough: "
+    words = "More than 1000 commands arrived in one second; 100 are enough: "
     words += "check the period of the timer that sends them."
     assert logged(recording) == [(stamp, words) for stamp in (0.05, 1.05)]
     assert received(recording)[-1] == (2.0, 1.0, 0.0)

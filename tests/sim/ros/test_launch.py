@@ -227,7 +227,7 @@ def test_a_command_that_is_not_python_is_refused_with_advice(package, tmp_path, 
     recording = run(description(tmp_path, entity), seconds=2, quiet=True)
     (error,) = recording.errors
     assert error.text == (
-        f"In a run, launch starts Python programs and ros2 commands only, and "
+        f"In a run, launch starts only Python programs and ros2 commands, and "
         f"{program.format(package=package)} is neither: `ros2 launch` in a terminal starts anything."
     )
     (line,) = recording.logs

@@ -69,5 +69,5 @@ def test_as_fast_as_it_goes(clock):
 def test_what_is_no_speed_is_refused(speed):
     with pytest.raises(ValueError) as caught:
         Pace(speed)
-    words = "speed must be a number more than 0, such as 2.0 for twice as fast as real time; it is "
+    words = "speed must be a number greater than 0, such as 2.0 for twice as fast as real time; it is "
     assert str(caught.value) == f"{words}{speed!r}."

@@ -60,25 +60,25 @@ def test_the_programs_of_a_package_are_known(workspace):
         (
             "my_pkg",
             "talkr",
-            "my_pkg has beep, shell, talker, and no talkr. Did you mean talker? "
-            "What is new in 'console_scripts' of setup.py is there after the next colcon build.",
+            "my_pkg has beep, shell, talker, but no talkr. Did you mean talker? "
+            "Changes in 'console_scripts' of setup.py take effect after the next colcon build.",
         ),
         (
             "my_pkg",
             "x",
-            "my_pkg has beep, shell, talker, and no x. "
-            "What is new in 'console_scripts' of setup.py is there after the next colcon build.",
+            "my_pkg has beep, shell, talker, but no x. "
+            "Changes in 'console_scripts' of setup.py take effect after the next colcon build.",
         ),
         (
             "my_pkg",
             "shell",
-            "shell of my_pkg is no Python program. A run takes those alone; ros2 run starts it.",
+            "shell of my_pkg is not a Python program. A run starts only those; ros2 run starts it.",
         ),
         (
             "lost",
             "stray",
-            "stray was installed into bin, and not into lib/lost. "
-            "In setup.cfg, [install] must say install_scripts=$base/lib/lost.",
+            "stray was installed into bin, not into lib/lost. "
+            "In setup.cfg, [install] must set install_scripts=$base/lib/lost.",
         ),
         ("lost", "x", "lost has none. Name one in 'console_scripts' of its setup.py, and build it again."),
     ],
@@ -134,7 +134,7 @@ def test_a_missing_package_is_explained(workspace, tmp_path, monkeypatch):
     monkeypatch.chdir(workspace.parent)
     monkeypatch.setenv("AMENT_PREFIX_PATH", sys.prefix)
     at = workspace.name
-    here = f"it is built, and not sourced: source('{at}/install/setup.bash') does that."
+    here = f"it is built but not sourced: source('{at}/install/setup.bash') does that."
     assert reason("my_pkg") == f"Package 'my_pkg' not found: {here}"
 
 
@@ -143,7 +143,7 @@ def test_a_package_that_was_not_built_is_found_by_its_package_xml(tmp_path, monk
     for name, text in {"fresh": "<package><name>fresh</name></package>", "broken": "<package>"}.items():
         (tmp_path / "ws/src" / name).mkdir(parents=True)
         (tmp_path / "ws/src" / name / "package.xml").write_text(text)
-    what = "it is in ws/src, and not built: run colcon build in ws."
+    what = "it is in ws/src but not built: run colcon build in ws."
     assert reason("fresh") == f"Package 'fresh' not found: {what}"
 
 
@@ -151,7 +151,7 @@ def test_what_cannot_be_sourced_is_refused(tmp_path):
     with pytest.raises(FileNotFoundError) as caught:
         source(tmp_path / "setup.bash")
     where = tmp_path / "setup.bash"
-    assert str(caught.value) == f"There is no {where}: colcon build, said in the workspace, writes it."
+    assert str(caught.value) == f"There is no {where}: colcon build in the workspace creates it."
     where.write_text("echo it is broken >&2\nreturn 1\n")
     with pytest.raises(RuntimeError) as failed:
         source(where)
@@ -201,7 +201,7 @@ def test_a_cmake_package_has_no_setup_py(installed):
 def test_a_cmake_package_with_other_programs_names_them(installed):
     installed("mine", {"other": (BEEP, 0o755)}, "share/mine/cmake")
     assert why_not("mine", "beep") == (
-        "mine has other, and no beep. What is new in CMakeLists.txt is there after the next colcon build."
+        "mine has other, but no beep. Changes in CMakeLists.txt take effect after the next colcon build."
     )
 
 
@@ -219,7 +219,7 @@ def test_a_program_without_an_interpreter_is_refused_in_a_sentence(installed):
     folder = installed("mine", {"beep": ("#!/nowhere/python\n", 0o755)})
     ros2 = Path(sys.executable).with_name("ros2")
     done = subprocess.run([ros2, "run", "mine", "beep"], capture_output=True, text=True, check=False)
-    reason = "can't be started: No such file or directory. Look at its first line."
+    reason = "can't be started: No such file or directory. Check its first line."
     assert (done.returncode, done.stdout, done.stderr) == (1, "", f"{folder}/beep {reason}\n")
 
 

@@ -92,7 +92,7 @@ def test_a_step_pauses(robot):
 
 
 def test_what_is_no_speed_is_refused_and_changes_nothing(robot):
-    with pytest.raises(ValueError, match=r"speed must be a number more than 0, .*; it is -2\."):
+    with pytest.raises(ValueError, match=r"speed must be a number greater than 0, .*; it is -2\."):
         robot.speed = -2
     assert robot.speed == 1.0
     assert repr(robot) == "<Player at 0.00 s of 600 s, playing at speed 1>"
@@ -151,7 +151,7 @@ def test_until_can_stop_it_but_not_move_it_on():
 
     made = playing.player(mains.Counter, seconds=5, until=until)
     playing.to_the_end(made)
-    words = "A player can't be moved on from inside its own run; let `until` return True."
+    words = "A player can't be advanced from inside its own run; let `until` return True."
     assert refused[0] == words
     assert made.recording.ended[::2] == ("interrupted", "The user stopped it.")
 
@@ -166,7 +166,7 @@ def test_what_cannot_be_played_is_refused_by_name():
         play(mains.Counter)
 
     (error,) = run(plays, seconds=1, quiet=True).errors
-    assert error.text == "play() can't start another run here: this is a node of one under way."
+    assert error.text == "play() can't start another run here: this is a node of a run in progress."
 
 
 # -- the picture -----------------------------------------------------------------------------------------
@@ -273,7 +273,7 @@ def in_another_thread(act):
 
 
 def test_another_thread_can_stop_it_but_not_move_it(robot):
-    words = "A player goes on only in the thread that called play(); here, stop it."
+    words = "A player continues only in the thread that called play(); here, you can only stop it."
     robot.play_frame()
     assert in_another_thread(robot.step) == in_another_thread(robot.result) == words
     robot.resume()

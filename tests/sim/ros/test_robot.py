@@ -13,7 +13,7 @@ from tests.students.engine import drivers
 
 MODEL = RobotModel()
 FLOOD = (
-    "More than 1000 velocity commands came in a second; 10 to 20 are enough: "
+    "More than 1000 velocity commands arrived in one second; 10 to 20 are enough: "
     "check the period of the timer that sends them."
 )
 TICKS = [tick / 20 for tick in range(41)]  # of the sensors in 2 s
@@ -169,7 +169,7 @@ def test_without_commands_the_robot_stops_after_half_a_second():
 ])  # fmt: skip
 def test_a_command_that_is_no_number_is_reported_once_a_second_and_ignored(driver, command):
     recording = run(driver, world="yard", seconds=2.5, quiet=True)
-    words = f"Velocity commands are finite numbers; this one was {command}: check how it was worked out."
+    words = f"Velocity commands are finite numbers; this one was {command}: check how it was calculated."
     assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "robot")}
     assert recording.path[-1] == (2.5, 0.0, 0.0, 0.0)

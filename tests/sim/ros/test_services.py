@@ -8,7 +8,7 @@ from tests.students.engine import services
 
 BLOCKED = (
     "ask of node /customer has waited since t = 1 s and never returned, at line {}: {}. "
-    "The answer of service /add can only be handled {}"
+    "The response of service /add can only be handled {}"
 )
 CALL = 'node.say(f"sum {node.client.call(node.request()).sum}")'
 SPIN = "rclpy.spin_until_future_complete(node, future)"
@@ -89,7 +89,7 @@ def test_awaiting_blocks_in_an_exclusive_group():
     recording = run(services.Adder, services.await_exclusive, seconds=3, quiet=True)
     detail = (
         "ask of node /customer has waited since t = 1 s and never returned. "
-        "The answer of service /add can only be handled in the same callback group, after it has returned."
+        "The response of service /add can only be handled in the same callback group, after it has returned."
     )
     assert why(recording) == ("blocked", 3.0, detail)
 

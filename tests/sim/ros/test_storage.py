@@ -46,4 +46,6 @@ def test_a_world_that_cannot_be_is_refused(tmp_path, changes, sentence):
     path = changed(tmp_path / "run.mcap", **changes)
     with pytest.raises(StorageError) as caught:
         Recording.load(path)
-    assert str(caught.value).startswith(f"{path} holds a world that cannot be: the world: {sentence}")
+    assert str(caught.value).startswith(
+        f"{path} contains a world that is not possible: the world: {sentence}"
+    )

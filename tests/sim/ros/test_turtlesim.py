@@ -146,7 +146,7 @@ def test_what_ends_a_rotation_early():
         (1.0, "Rotation goal received before a previous goal finished. Aborting previous goal"),
         (1.5, "Velocity command received during rotation goal. Aborting goal"),
         (2.208, "Rotation goal canceled"),
-        (3.0, "Headings are finite numbers; this one was nan: check how it was worked out."),
+        (3.0, "Headings are finite numbers; this one was nan: check how it was calculated."),
     ]
     assert [goal.status for goal in recording.goals] == ["aborted", "aborted", "canceled", "rejected"]
 
@@ -217,9 +217,9 @@ def test_numbers_that_are_none_are_refused():
         (1.7, "swim", "turtle1", math.nan), (1.8, "odd"), seconds=2,
     )  # fmt: skip
     assert news(recording, ["ERROR"]) == [
-        (0.5, "Places are finite numbers; this one was inf, 0: check how it was worked out."),
-        (1.7, "Velocity commands are finite numbers; this one was nan, 0, 0: check how it was worked out."),
-        (1.8, "Places are finite numbers; this one was nan, 2, 0.2: check how it was worked out."),
+        (0.5, "Places are finite numbers; this one was inf, 0: check how it was calculated."),
+        (1.7, "Velocity commands are finite numbers; this one was nan, 0, 0: check how it was calculated."),
+        (1.8, "Places are finite numbers; this one was nan, 2, 0.2: check how it was calculated."),
     ]
     assert recording.path[-1][1:] == (MIDDLE, MIDDLE, 0.0)
 

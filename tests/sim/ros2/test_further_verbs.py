@@ -176,7 +176,7 @@ def test_interface_proto_prints_a_message_to_fill_in(capsys, words, text):
 def test_a_command_that_is_not_here_is_named(capsys, words):
     ros2(f"{words} anything")
     text = capsys.readouterr().out
-    assert text == f"`ros2 {words}` is not here: {absent.COMMANDS[words]}\n"
+    assert text == f"`ros2 {words}` is not available here: {absent.COMMANDS[words]}\n"
     assert " Use " in text and text.endswith(" instead.\n")
 
 
@@ -189,7 +189,7 @@ OPTIONS = [(words, option) for words, options in absent.OPTIONS.items() for opti
 def test_an_option_that_is_not_here_is_named(capsys, words, option):
     ros2(f"{words} {POSITIONAL.get(words, 'something')} {option}")
     text = capsys.readouterr().out
-    assert text.startswith(f"`ros2 {words} {option}` is not here: ")
+    assert text.startswith(f"`ros2 {words} {option}` is not available here: ")
     assert text.endswith((". Leave it out.\n", " instead.\n"))
 
 

@@ -72,8 +72,8 @@ def test_programs_prefix_and_manifest_of_a_package_are_printed(execute, package)
         ("run two_robot driver", "Package 'two_robot' not found: did you mean two_robots?"),
         (
             "run two_robots drivr",
-            "No executable found: two_robots has binary, driver, once, and no drivr. Did you mean driver? "
-            "What is new in 'console_scripts' of setup.py is there after the next colcon build.",
+            "No executable found: two_robots has binary, driver, once, but no drivr. Did you mean driver? "
+            "Changes in 'console_scripts' of setup.py take effect after the next colcon build.",
         ),
         (
             "launch two_robots no.launch.py",
@@ -81,7 +81,7 @@ def test_programs_prefix_and_manifest_of_a_package_are_printed(execute, package)
         ),
         (
             "launch two_robots",
-            "Package 'two_robots' has launch files: say which, as in two_robots bringup.lau",
+            "Package 'two_robots' has launch files: name one, as in two_robots bringup.lau",
         ),
         ("launch no.launch.py", "There is no launch file 'no.launch.py' in "),
         ("launch two_robots one.launch.py speed:=", "malformed launch argument 'speed:=', expected format"),

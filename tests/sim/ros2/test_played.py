@@ -113,7 +113,7 @@ def test_endless_publishing_ends_after_five_simulated_seconds(playing):
             "Waiting for an action server to become available...\n"
             "Nothing came of it within 20 s of the play.\n",
         ),
-        ("topic hz /level", "No message came on /level within 5 s of the play.\n"),
+        ("topic hz /level", "No message arrived on /level within 5 s of the play.\n"),
         (
             "topic pub /level std_msgs/msg/Float64 '{data: [1}'",
             "'{data: [1}' is not YAML, such as '{x: 1.0, y: 2.0}': while parsing a flow sequence\n",
@@ -135,7 +135,7 @@ def test_endless_publishing_ends_after_five_simulated_seconds(playing):
         ),
         (
             "doctor hello",
-            "`ros2 doctor hello` speaks with other machines: type it in a terminal of each.\n",
+            "`ros2 doctor hello` communicates with other machines: type it in a terminal of each.\n",
         ),
     ],
 )
@@ -146,7 +146,7 @@ def test_a_failure_is_explained(playing, command, words):
 def test_a_paused_player_refuses_commands(playing):
     playing.player.play_frame(0.5)
     playing.player.pause()
-    still = "The play is paused, so nothing happens in it: let it go on, and try again.\n"
+    still = "The play is paused, so nothing happens in it: resume it, and try again.\n"
     assert playing("topic hz /place") == still
     assert playing("param get /talker speed") == still
     assert playing("node list") == OFFICIAL["node list"]

@@ -13,8 +13,8 @@ from tests.sim.ros2.official import OFFICIAL, plain
 
 CHANGES = re.compile(r"topic pub|service call|action send_goal|param (set|load|describe)|lifecycle [gs]et")
 OVER = (
-    "Nothing runs any more: this is the recording of the last run. Start one with play(...), and try again"
-    " while it goes on.\n"
+    "Nothing is running any more: this is the recording of the last run. Start one with play(...), and try "
+    "again while it runs.\n"
 )
 # Where the course's output has more, or differs.
 OWN = {
@@ -95,14 +95,17 @@ def test_commands_that_need_running_nodes_are_refused(said, command):
             "WARNING: topic [/plac] does not appear to be published yet. Did you mean /place?\n"
             "Could not determine the type for the passed topic\n",
         ),
-        ("topic hz /level", "No message came on /level in this run.\n"),
+        ("topic hz /level", "No message arrived on /level in this run.\n"),
         ("topic delay /greeting", "msg does not have header\n"),
-        ("topic echo --once --qos-reliability reliable /place", "No message came on /place in this run.\n"),
+        (
+            "topic echo --once --qos-reliability reliable /place",
+            "No message arrived on /place in this run.\n",
+        ),
         ("topic echo --once --qos-durability volatile --field data /greeting", "hello\n---\n"),
         ("topic echo --once --filter m.x>1 --field point /place", "x: 1.5\ny: 0.0\nz: 0.0\n---\n"),
         ("topic hz --filter 1/0 /place", "--filter '1/0' fails: ZeroDivisionError: division by zero\n"),
-        ("topic hz --filter m.point.x>99 /place", "No message came on /place in this run.\n"),
-        ("topic echo --filter m.x>2 --field point /place", "No message came on /place in this run.\n"),
+        ("topic hz --filter m.point.x>99 /place", "No message arrived on /place in this run.\n"),
+        ("topic echo --filter m.x>2 --field point /place", "No message arrived on /place in this run.\n"),
         ("topic echo --filter 1/0 /place", "--filter '1/0' fails: ZeroDivisionError: division by zero\n"),
         ("topic echo --once --raw /greeting", r"b'\x00\x01\x00\x00\x06\x00\x00\x00hello\x00'" "\n---\n"),
         ("topic echo --once -l 2 /greeting", "data: he...\n---\n"),
@@ -199,5 +202,5 @@ def test_doctor_reports_unmatched_topics_and_incompatible_qos(said):
 def test_without_a_run_commands_are_refused(said):
     latest.recording = None
     assert said("node list") == (
-        "Nothing has run yet: start nodes with run(...) or play(...), and then ask about them.\n"
+        "Nothing has run yet: start nodes with run(...) or play(...), and then inspect them.\n"
     )

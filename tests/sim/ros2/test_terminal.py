@@ -187,7 +187,7 @@ def test_a_command_in_a_cell_points_to_the_magic(system, monkeypatch):
 
 
 def test_an_invalid_domain_is_reported():
-    wrong = "ROS_DOMAIN_ID is 'lab', and a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
+    wrong = "ROS_DOMAIN_ID is 'lab', but a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
     assert ended([*ROS2, "node", "list"], "lab") == (1, "", wrong)
 
 

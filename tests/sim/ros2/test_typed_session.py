@@ -165,16 +165,16 @@ def test_a_terminal_is_busy_until_its_program_has_ended(typed):
 FAILURES = {
     "rso2 run demo driver": "rso2: command not found. Did you mean ros2?",
     "drive": "drive: command not found",
-    "ros2 run demo driver | head": "`|` needs a shell, and there is none here: leave it out",
+    "ros2 run demo driver | head": "`|` needs a shell, but there is none here: leave it out",
     "ros2 run demo driver &": (
-        "`&` needs a shell, and there is none here: open another terminal for the next command"
+        "`&` needs a shell, but there is none here: open another terminal for the next command"
     ),
     "cd ws && colcon build": (
-        "`&&` needs a shell, and there is none here: type each command on a line of its own"
+        "`&&` needs a shell, but there is none here: type each command on a line of its own"
     ),
-    "cd $HOME": "`$` needs a shell, and there is none here: type the value itself",
+    "cd $HOME": "`$` needs a shell, but there is none here: type the value itself",
     "ros2 topic pub /x (data)": (
-        "`(` needs a shell, and there is none here: put quotes round a value that has it"
+        "`(` needs a shell, but there is none here: put quotes round a value that has it"
     ),
     "ros2 topic list '": "bash: No closing quotation: a quote that is opened has to be closed",
     "colcon test": "colcon test is not executed here: colcon build is",
@@ -199,7 +199,7 @@ FAILURES = {
     ),
     "sleep long": "sleep: invalid time interval 'long'",
     f"{SET_UP}ros2 run demo diver": (
-        "No executable found: demo has driver, and no diver. Did you mean driver? What is new in"
+        "No executable found: demo has driver, but no diver. Did you mean driver? Changes in"
     ),
     f"{SET_UP}ros2 run dem driver": "Package 'dem' not found: did you mean demo?",
     f"{SET_UP}ros2 run demo": "ros2 run: error: the following arguments are required: executable_name, argv",

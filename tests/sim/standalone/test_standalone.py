@@ -25,7 +25,7 @@ In another terminal:
 
 """
 NO_NUMBER = (
-    "[ERROR] [robot]: Velocity commands are finite numbers; this one was {}: check how it was worked out."
+    "[ERROR] [robot]: Velocity commands are finite numbers; this one was {}: check how it was calculated."
 )
 
 

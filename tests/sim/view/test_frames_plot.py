@@ -51,14 +51,14 @@ def test_it_shows_each_frame_in_its_parent_with_the_publisher():
 
 def test_two_trees_are_reported():
     figure = drawn(broadcaster(("map", "dock"), ("sea", "island")))
-    reason = "There are 2 trees, and no way leads between map and sea."
+    reason = "There are 2 trees, and no path connects map and sea."
     assert figure.description.endswith(f"Missing:\n1. {reason}")
 
 
 def test_a_frame_with_two_parents_is_red():
     other = broadcaster(moving=[("map", "laser"), ("map", "base_link")])
     figure = drawn(broadcaster(("base_link", "laser")), other)
-    reason = "laser has two parents, base_link and map: that is no tree."
+    reason = "laser has two parents, base_link and map: that is not a tree."
     assert figure.description.endswith(f"Missing:\n1. {reason}")
     assert len(red(figure)) == 2
 

@@ -55,5 +55,5 @@ def test_a_player_is_inert_and_escapes_its_text(straight):
 
 
 def test_a_run_in_which_nothing_moved_is_refused():
-    with pytest.raises(ValueError, match="this run moved nothing yet: it has no pose to draw"):
+    with pytest.raises(ValueError, match="nothing has moved in this run yet: it has no pose to draw"):
         pack_motion(Recording(world=run(Driver, world="room", seconds=1, quiet=True).world))

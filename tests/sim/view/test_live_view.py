@@ -192,7 +192,7 @@ def test_a_view_that_is_closed_leaves_nothing(view, place):
 
 
 def test_a_view_is_closed_even_when_there_is_nothing_to_replay(view, place):
-    with pytest.raises(ValueError, match="this run moved nothing yet"):
+    with pytest.raises(ValueError, match="nothing has moved in this run yet"):
         view.finish(Recording(world=World.load("room")))
     assert (place.shown[1].data, view.comm) == ("", None)
 

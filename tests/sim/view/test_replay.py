@@ -232,7 +232,7 @@ def test_a_speed_must_be_above_0(speed):
 
 
 def test_a_world_in_which_nothing_moved_yet_is_refused():
-    with pytest.raises(ValueError, match=r"^this run moved nothing yet: it has no pose to draw$"):
+    with pytest.raises(ValueError, match=r"^nothing has moved in this run yet: it has no pose to draw$"):
         replay(Recording(world=World.load("room")))
 
 

@@ -167,7 +167,7 @@ def test_a_command_that_is_not_finite_is_refused_and_changes_nothing(v, w, seen)
     with pytest.raises(CommandError) as caught:
         simulation.robot.command(v, w)
     assert str(caught.value) == (
-        f"Velocity commands are finite numbers; this one was {seen}: check how it was worked out."
+        f"Velocity commands are finite numbers; this one was {seen}: check how it was calculated."
     )
     simulation.advance(1.2)
     assert simulation.robot.odometry.v == 0.4

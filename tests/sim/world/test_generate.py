@@ -138,17 +138,17 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
         (
             "maze",
             {"cell": 0.1},
-            "A generated maze cannot be: cell is 0.1; write a number from 0.4 to 5 (meters).",
+            "A generated maze like that is not possible: cell is 0.1; write a number from 0.4 to 5 (meters).",
         ),
         (
             "maze",
             {"rows": 1000},
-            "A generated maze cannot be: rows is 1000; write a whole number from 2 to 40.",
+            "A generated maze like that is not possible: rows is 1000; write a whole number from 2 to 40.",
         ),
         (
             "clutter",
             {"density": 0.5},
-            "A generated clutter cannot be: density is 0.5; write a number from 0 to 0.08.",
+            "A generated clutter like that is not possible: density is 0.5; write a number from 0 to 0.08.",
         ),
         ("room", {"seed": -1}, "The seed of a world is -1; write a whole number, 0 or more."),
         ("room", {"seed": 0.5}, "The seed of a world is 0.5; write a whole number, 0 or more."),

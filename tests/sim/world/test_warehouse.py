@@ -81,13 +81,17 @@ def test_a_warehouse_has_the_requested_objects():
     [
         (
             {"movable": 7},
-            "A generated warehouse cannot be: movable is 7; write at most 6, one for each shelf.",
+            "A generated warehouse like that is not possible: movable is 7; "
+            "write at most 6, one for each shelf.",
         ),
         (
             {"robots": 4},
-            "A generated warehouse cannot be: robots is 4; write a whole number from 1 to 3.",
+            "A generated warehouse like that is not possible: robots is 4; write a whole number from 1 to 3.",
         ),
-        ({"rows": 9}, "A generated warehouse cannot be: rows is 9; write a whole number from 1 to 8."),
+        (
+            {"rows": 9},
+            "A generated warehouse like that is not possible: rows is 9; write a whole number from 1 to 8.",
+        ),
         (
             {"shelfs": 9},
             "A generated warehouse has no 'shelfs'. There are columns, rows, movable, people, robots.",

@@ -41,7 +41,9 @@ def read(path: str) -> LaunchDescription:
         finally:
             loader.dispose()
     if not isinstance(tree, dict) or list(tree) != ["launch"] or not isinstance(tree["launch"], list):
-        raise RuntimeError(f"{path} is no launch file: it has to begin with `launch:`, and a list below it.")
+        raise RuntimeError(
+            f"{path} is not a launch file: it has to begin with `launch:`, with a list below it."
+        )
     return LaunchDescription([create_action(child) for child in tree["launch"]])
 
 

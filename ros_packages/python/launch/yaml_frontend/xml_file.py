@@ -67,5 +67,5 @@ def read_tree(path: str) -> dict[str, Any]:
         raise InvalidXml(f"{reason} ({path}, line {error.lineno}, column {error.offset + 1})") from None
     ((tag, (content, *_)),) = root.content.items()
     if tag != "launch":
-        raise InvalidXml(f"{path} is no launch file: its root has to be <launch>, and is <{tag}>.")
+        raise InvalidXml(f"{path} is not a launch file: its root has to be <launch>, but is <{tag}>.")
     return {"launch": content.get("children", [])}

@@ -72,7 +72,7 @@ def test_the_secret_changes_the_nodes_random_numbers(follower):
         (
             "Scribbler",
             PATIENCE,
-            "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
+            "The process with the nodes ended unexpectedly at 0.5 s: something in it ended the run there, "
             "or wrote to its connections.",
         ),
     ],

@@ -272,7 +272,7 @@ def test_an_invalid_answer_ends_the_run(answer, words):
 
 def test_a_run_that_ends_early_in_the_other_process_is_reported():
     assert reason_for(QUIET | {"next": END // 2}, {"done": True, "threads": False}) == (
-        "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
+        "The process with the nodes ended unexpectedly at 0.5 s: something in it ended the run there, "
         "or wrote to its connections."
     )
 
@@ -294,7 +294,7 @@ def test_a_flood_of_messages_is_a_livelock():
     hello = ["message", "/talker", "/chat", encode(String(data="hello")), False]
     with answering(answer_with(TALKS, *[hello] * 20_001)) as remote:
         recording = run(remote, seconds=1, quiet=True)
-    assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time move on.")
+    assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time advance.")
 
 
 def test_long_texts_are_cut_and_surrogates_replaced():

@@ -75,7 +75,7 @@ def test_a_command_of_another_form_is_refused(positions):
         arm.command(positions)
     assert str(caught.value) == (
         "A command is one finite number (rad) for each of the 2 joints; "
-        f"this one was {positions}: check how it was worked out."
+        f"this one was {positions}: check how it was calculated."
     )
     arm.advance(1)
     assert arm.positions == (0.0, 0.0)

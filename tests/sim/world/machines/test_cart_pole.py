@@ -170,7 +170,7 @@ def test_a_command_that_is_no_number_is_refused(command):
     with pytest.raises(CommandError) as caught:
         cart_pole.command(command)
     assert str(caught.value) == (
-        f"Efforts are finite numbers (N); this one was {command}: check how it was worked out."
+        f"Efforts are finite numbers (N); this one was {command}: check how it was calculated."
     )
 
 

@@ -85,7 +85,7 @@ def test_a_command_that_is_no_number_is_refused_and_changes_nothing(command):
     with pytest.raises(CommandError) as caught:
         joint.command(command)
     assert str(caught.value) == (
-        f"Joint commands are finite numbers (rad); this one was {command}: check how it was worked out."
+        f"Joint commands are finite numbers (rad); this one was {command}: check how it was calculated."
     )
     joint.advance(3)
     assert joint.position == 1.0
