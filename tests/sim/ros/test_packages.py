@@ -101,7 +101,7 @@ def test_a_missing_program_is_explained(workspace, package, name, why):
         (
             "tf2_ros",
             "tf2_ech",
-            "tf2_ros has static_transform_publisher, tf2_echo, and no tf2_ech. Did you mean tf2_echo?",
+            "tf2_ros has static_transform_publisher, tf2_echo, but no tf2_ech. Did you mean tf2_echo?",
         ),
     ],
 )
