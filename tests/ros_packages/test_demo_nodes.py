@@ -122,7 +122,7 @@ def test_a_program_that_the_course_lacks_is_refused_with_those_that_there_are():
     assert str(refused.value) == (
         "No executable found: demo_nodes_py has add_two_ints_client, add_two_ints_client_async, "
         "add_two_ints_server, listener, listener_qos, listener_serialized, set_parameters_callback, talker, "
-        "talker_qos, and no talkr. Did you mean talker?"
+        "talker_qos, but no talkr. Did you mean talker?"
     )
 
 

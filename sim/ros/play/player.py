@@ -191,9 +191,7 @@ class Player:
     def _advance(self, limit: float, enough: Callable[[], bool] | None = None) -> None:
         """Advance to `limit`; if the run ends there, clean up."""
         if self._session.elsewhere:
-            raise RuntimeError(
-                "A player continues only in the thread that called play(); here, you can only stop it."
-            )
+            raise RuntimeError("A player continues only in the thread that called play(); here, stop it.")
         if self._advancing:
             raise RuntimeError("A player can't be advanced from inside its own run; let `until` return True.")
         self._advancing = True

@@ -273,7 +273,7 @@ def in_another_thread(act):
 
 
 def test_another_thread_can_stop_it_but_not_move_it(robot):
-    words = "A player continues only in the thread that called play(); here, you can only stop it."
+    words = "A player continues only in the thread that called play(); here, stop it."
     robot.play_frame()
     assert in_another_thread(robot.step) == in_another_thread(robot.result) == words
     robot.resume()

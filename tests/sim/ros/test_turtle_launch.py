@@ -226,7 +226,7 @@ def test_yaml_and_ctrl_c(tmp_path):
         (
             "turtlesim",
             "turtlesim",
-            "turtlesim has mimic, turtlesim_node, and no turtlesim. Did you mean turtle",
+            "turtlesim has mimic, turtlesim_node, but no turtlesim. Did you mean turtle",
         ),
         ("tf2_ros", "tf2_monitor", "tf2_ros has static_transform_publisher, tf2_echo, and no tf2_monitor."),
     ],
