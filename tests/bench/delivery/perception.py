@@ -120,7 +120,8 @@ class Perception(Node):
 
     def remember(self, x, y, now):
         """Find out which thing this is: the nearest one, or a new one."""
-        thing = min(self.things, key=lambda thing: math.dist((thing.x, thing.y), (x, y)), default=None)
+        others = [thing for thing in self.things if thing.seen < now]  # a box may be two groups of a scan
+        thing = min(others, key=lambda thing: math.dist((thing.x, thing.y), (x, y)), default=None)
         if thing is not None and math.dist((thing.x, thing.y), (x, y)) < 0.3:
             thing.see(x, y, now)
         else:

@@ -16,7 +16,7 @@ from tests.students.teams import Team
 
 PARTS = (
     *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
-    *("Unsocial", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight"),
+    *("Unsocial", "Close", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -128,6 +128,15 @@ class Unsocial(Perception):
 
 
 ForgetsWhoWalks = Team(Unsocial, Decision, Control)
+
+
+class Close(Control):
+    """Keeps away from people, but not far enough."""
+
+    away = 0.6
+
+
+PassesTooClose = Team(Perception, Decision, Close)
 
 
 class Repeating(Control):
