@@ -96,7 +96,7 @@ export class RobotPanel {
   /** A button for the notebook's toolbar. */
   button() {
     return new this.lab.ToolbarButton({
-      label: "Robot", tooltip: "Show the robot beside the notebook", onClick: () => this.reveal(),
+      label: "Robot", tooltip: "Show the robot next to the notebook", onClick: () => this.reveal(),
     });
   }
 

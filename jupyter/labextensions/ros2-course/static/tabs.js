@@ -52,7 +52,7 @@ export function navigationButtons(lab, app, panel) {
   if (!FILE.test(panel.context.path)) return [];
   return [
     button("Course", "Back to the start page of the course", () => app.commands.execute(OPEN_START)),
-    button("Next", "On to the notebook that comes next", async () => {
+    button("Next", "Go to the next notebook", async () => {
       const next = await nextNotebook(app.serviceManager.contents, panel.context.path);
       return next ? open(next) : app.commands.execute(OPEN_START);
     }),
