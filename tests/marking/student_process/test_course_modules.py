@@ -80,6 +80,8 @@ THERE = {
     "checks.shift": ("Shift _statuses _touched", "counts what was delivered"),
     "checks.topics": ("longest_pause", "a pause between stamps"),
     "checks.twists": ("speeds_text", "words of a miss"),
+    "companions.crash_reports": ("CrashReport _constants _is_on_a_robot _lines _name _own_places _place "
+                                 "_report _run crash_reports", "needs the private seed"),
     "companions.crates": ("crates", "the judge starts these; here they lack all that they use"),
     "companions.parcel_database": ("seconds_for stored", "the database itself, which the answer awaits"),
     "companions.scripted_orders": ("Script ScriptedOrder Situation situations", "needs the private seed"),
