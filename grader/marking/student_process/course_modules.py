@@ -18,7 +18,12 @@ from typing import Any, NoReturn
 from grader.catalog import exercises
 from grader.marking.student_process.judge_only import CLOSED, EXERCISES
 
-SERVED = "grader.companions.main_observer", "grader.companions.test_runner"  # the judge names functions
+# The judge names functions of these, which prepare a program.
+SERVED = (
+    "grader.companions.main_observer",
+    "grader.companions.parameter_start",
+    "grader.companions.test_runner",
+)
 WITH_JUDGE = ("grader.companions.workshop",)  # its nodes hold right functions: it starts no program here
 
 

@@ -127,6 +127,12 @@ def test_notebooks_import_their_package_and_nothing_else_that_holds_answers(star
     assert [name for name in public if not hasattr(public[name], "__path__") and name not in here] == []
 
 
+def test_a_companion_that_prepares_a_program_is_in_a_students_process():
+    runs = [scenario for exercise in exercises().values() for scenario, _ in exercise.runs()]
+    modules = {getattr(one.prepare, "func", one.prepare).__module__ for one in runs if one.prepare}
+    assert {name for name in modules if name.startswith("grader.companions.")} - {*SERVED} == set()
+
+
 def used_by(function, found):
     """Add all functions of the grader that a function calls, or may call, and itself."""
     function = inspect.unwrap(function.func if isinstance(function, functools.partial) else function)
