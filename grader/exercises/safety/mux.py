@@ -11,8 +11,9 @@ from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, require_standing, same
 from sim.evidence import Message, Recording, Seconds
 
-OLD, BRAKING = 0.72, 1.0  # s: certainly older than the time-out, with the network's delay; to stop
+OLD, BRAKING = 0.85, 1.0  # s: certainly older than the time-out, over the network, too; to stop
 STEP, STEADY, BEGIN, SILENT = 0.1, 0.35, 0.5, 0.3  # s
+ARRIVED = 0.24  # s, within which a command has certainly come over the network, and gone out again
 ZERO = "A 0 from the joystick is a command, too: check how old it is, not how fast."
 FIRST = "Check the joystick first: while its command is less than 0.5 s old, the navigator has to wait."
 
@@ -123,4 +124,5 @@ def _steady(sent: list[Message], now: Seconds) -> Speeds | None:
     """What a driver wants for certain: fresh, and the same for a while."""
     rows = Window(now - STEADY, now).rows(sent)
     wanted = {speeds(row) for row in rows}
-    return wanted.pop() if len(rows) >= 2 and len(wanted) == 1 else None
+    arrived = len(rows) >= 2 and rows[0].stamp <= now - ARRIVED
+    return wanted.pop() if arrived and len(wanted) == 1 else None
