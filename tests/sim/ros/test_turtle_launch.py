@@ -228,7 +228,7 @@ def test_yaml_and_ctrl_c(tmp_path):
             "turtlesim",
             "turtlesim has mimic, turtlesim_node, but no turtlesim. Did you mean turtle",
         ),
-        ("tf2_ros", "tf2_monitor", "tf2_ros has static_transform_publisher, tf2_echo, and no tf2_monitor."),
+        ("tf2_ros", "tf2_monitor", "tf2_ros has static_transform_publisher, tf2_echo, but no tf2_monitor."),
     ],
 )
 def test_a_program_that_is_not_bundled_is_reported(tmp_path, package, name, words):
