@@ -19,6 +19,8 @@ MARGIN = 0.5
 FREE_AHEAD, BESIDE = 1.5, 60  # meters that are free at the start, within so many degrees of straight ahead
 BLOCK = 0.8  # meters; the side of the box in the way
 CHEAP = LidarModel(noise=0.03, dropouts=0.05)
+SHORT = LidarModel(range_max=1.8)  # of a hall: at the start no ray hits anything
+TOO_CLOSE, AT_THE_WALL = LidarModel(range_min=0.25), 0.2  # m from the wall, where rays to it are -inf
 GAP = 0.15  # meters; how far from everything there is still a path past the box
 
 
@@ -26,6 +28,11 @@ def hall(seed: int) -> World:
     """Return a wide hall: the wall ahead of the robot is 3 m to 5 m away, those beside it 2 m."""
     ahead = random.Random(f"hall {seed}").uniform(3.0, 5.0)
     return walled("hall", seed, (-2.5, -2.0, round(ahead, 2), 2.0), "An empty hall.", start=(0.0, 0.0, 0.0))
+
+
+def short_sighted(world: World) -> World:
+    """Return the world with a lidar that sees nothing beyond 1.8 m: most of its rays are inf."""
+    return replace(world, lidar=SHORT)
 
 
 def long_hall(seed: int) -> World:
@@ -42,6 +49,13 @@ def gallery(seed: int) -> World:
     start = (round(draw.uniform(0.9, width - 1.9), 2), MARGIN, 0.0)
     card, pillar = "A room with a round pillar in its middle.", Circle(width / 2, height / 2, 0.3)
     return walled("gallery", seed, (0.0, 0.0, width, height), card, start=start, circles=(pillar,))
+
+
+def gallery_from_the_wall(seed: int) -> World:
+    """Return a gallery in which the robot starts closer to the wall than its lidar can measure."""
+    world = gallery(seed)
+    x, _, yaw = world.start
+    return replace(world, start=(x, AT_THE_WALL, yaw), lidar=TOO_CLOSE)
 
 
 def furnished_room(seed: int) -> World:

@@ -15,7 +15,7 @@ from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, same
 from grader.responses.speeds import STANDING
 from grader.responses.speeds import speeds as speeds_along
-from grader.worlds.rooms import free_start, long_hall
+from grader.worlds.rooms import free_start, long_hall, short_sighted
 from sim import Process
 from sim.evidence import Recording, Seconds, since_start, stamps
 
@@ -48,7 +48,8 @@ REMAPPED = [(OUT, RAW)]
 
 guard = Exercise("guard", "A guard for the robot", scenarios=[
     Scenario(free_start, 40, 1, [Radio, Process(CarelessDriver, remappings=REMAPPED)]),
-    Scenario(long_hall, 24, 2, [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
+    Scenario(lambda seed: short_sighted(long_hall(seed)), 24, 2,
+             [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
 ])
 
 

@@ -1,13 +1,16 @@
 """Stop before a wall."""
 
 from grader.checks import Missed, otherwise, publishes, series, stands_still
-from grader.exercise import Exercise
-from grader.worlds.rooms import hall
+from grader.exercise import Exercise, Scenario
+from grader.worlds.rooms import hall, short_sighted
 from sim.evidence import Recording
 
 STOP_AT = 1.0  # meters before the wall
 
-stop = Exercise("stop", "Stop before the wall", world=hall, seconds=30, seeds=(1, 2))
+stop = Exercise("stop", "Stop before the wall", scenarios=[
+    Scenario(hall, 30, 1),
+    Scenario(lambda seed: short_sighted(hall(seed)), 30, 2),
+])
 
 
 def _any(run: Recording, field: str) -> bool:

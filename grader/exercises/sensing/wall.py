@@ -6,15 +6,18 @@ import statistics
 
 from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, traveled, until_a_touch
 from grader.diagnosis.driving import refused_command
-from grader.exercise import Exercise
-from grader.worlds.rooms import MARGIN, gallery
+from grader.exercise import Exercise, Scenario
+from grader.worlds.rooms import MARGIN, gallery, gallery_from_the_wall
 from sim.evidence import Pose, Recording
 
 NEAR, FAR = 0.3, 0.8  # meters from the wall
 SETTLED = 3.0  # seconds
 SHARE = 0.9  # of the time
 
-wall = Exercise("wall", "Around the room", world=gallery, seconds=90, seeds=(1, 2))
+wall = Exercise("wall", "Around the room", scenarios=[
+    Scenario(gallery, 90, 1),
+    Scenario(gallery_from_the_wall, 90, 2),
+])
 
 
 def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
@@ -31,7 +34,10 @@ def _goes_the_other_way(run: Recording) -> bool:
     return sum(math.remainder(b - a, math.tau) for a, b in itertools.pairwise(bearings)) < -math.pi / 2
 
 
-@wall.check(2, guess="While nothing is ahead, linear.x should be 0.2 or more.")
+@wall.check(2, hints={
+    "{command} -inf is a wall too close to be measured: max(0.0, distance) makes a number of it.":
+        lambda run: (command := refused_command(run)) and {"command": command},
+}, guess="While nothing is ahead, linear.x should be 0.2 or more.")
 def leaves_the_start(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")

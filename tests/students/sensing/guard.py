@@ -234,6 +234,14 @@ class LetsEverythingThrough(Guard):
     limit = -1.0
 
 
+class LeavesOutInfinity(Guard):
+    """Where nothing is in range, no ray is left."""
+
+    def ahead(self):
+        rays = [*self.scan.ranges[: self.half], *self.scan.ranges[-self.half :]]
+        return min(ray for ray in rays if math.isfinite(ray))
+
+
 class LooksThroughAStraw(Guard):
     half = 4
 

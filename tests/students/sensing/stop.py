@@ -198,3 +198,12 @@ class TurnsInPlaceOfDriving(Stopper):
 class LeastByMethod(Stopper):
     def look(self, msg):
         return msg.ranges.min()
+
+
+class LeavesOutInfinity(Stopper):
+    """Where nothing is in range, no ray is left."""
+
+    def look(self, msg):
+        command = Twist()
+        command.linear.x = self.choose(min(ray for ray in msg.ranges if math.isfinite(ray)))
+        self.publisher.publish(command)

@@ -24,8 +24,11 @@ class WallFollower(Node):
     def look(self, msg):
         command = Twist()
         ahead = min([*msg.ranges[:20], *msg.ranges[-20:]])
-        self.choose(command, ahead, min(msg.ranges[self.side]))
+        self.choose(command, ahead, self.to_the_wall(msg.ranges[self.side]))
         self.publisher.publish(command)
+
+    def to_the_wall(self, ranges):
+        return max(0.0, min(ranges))
 
     def choose(self, command, ahead, wall):
         if ahead < self.limit:
@@ -41,7 +44,7 @@ class LooksAhead(WallFollower):
     def look(self, msg):
         command = Twist()
         ahead = min([*msg.ranges[:21], *msg.ranges[-20:]])
-        self.choose(command, ahead, min(msg.ranges[290:311]) * math.sin(math.radians(60)))
+        self.choose(command, ahead, self.to_the_wall(msg.ranges[290:311]) * math.sin(math.radians(60)))
         self.publisher.publish(command)
 
 
@@ -102,7 +105,7 @@ def main():
     theta = math.radians(45)
 
     def callback(scan):
-        b, a = scan.ranges[270], scan.ranges[315]
+        b, a = max(0.1, scan.ranges[270]), max(0.1, scan.ranges[315])  # -inf is too close
         alpha = math.atan2(a * math.cos(theta) - b, a * math.sin(theta))
         future = b * math.cos(alpha) + 0.3 * math.sin(alpha)
         msg = Twist()
@@ -145,6 +148,13 @@ class WithDerivative(WallFollower):
         command.angular.z = 1.5 * error + 0.5 * change if ahead > 0.7 else 1.5
 
 
+class TurnsInfinitely(WallFollower):
+    """Where the wall is too close, the distance is -inf, and so is the turn: the robot refuses it."""
+
+    def to_the_wall(self, ranges):
+        return min(ranges)
+
+
 class Nervous(WallFollower):
     """Far too large a gain: it wobbles, but it gets round."""
 
@@ -184,6 +194,13 @@ class TooFarAway(WallFollower):
 
 class TooNear(WallFollower):
     distance, limit = 0.2, 0.25
+
+
+class TooNearToMeasure(TooNear):
+    """Too near, and where the lidar can't measure that, the turn is infinite."""
+
+    def to_the_wall(self, ranges):
+        return min(ranges)
 
 
 class FallsAsleep(WallFollower):
