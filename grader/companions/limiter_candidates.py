@@ -1,14 +1,9 @@
 """Implementations of the node `Limiter`: three right ones, and ten that break a line of its contract each."""
 
-import random
 from functools import partial
 from typing import Any
 
-from rclpy.node import Node
-from std_msgs.msg import String
-
-from grader.companions.qos import LATCHED
-from grader.companions.test_runner import CANDIDATES, VERDICTS
+from grader.companions.candidates import Candidates, in_order
 
 GIVEN = """\
 import math
@@ -120,26 +115,9 @@ WRONG = tuple(
 
 def candidates(seed: int) -> list[tuple[bool, str]]:
     """Whether it is right, and the text of each candidate, in the order of a seed."""
-    found = [*((True, text) for text in RIGHT), *((False, text) for text in WRONG)]
-    random.Random(f"limiter {seed}").shuffle(found)
-    return found
-
-
-class Candidates(Node):
-    """Publishes one candidate after the other on /candidates, each when the verdict before it has come."""
-
-    def __init__(self, seed: int) -> None:
-        super().__init__("candidates")
-        self.left = [f"{number}\n{text}" for number, (_, text) in enumerate(candidates(seed), 1)]
-        self.publisher = self.create_publisher(String, CANDIDATES, LATCHED)
-        self.create_subscription(String, VERDICTS, self.on_verdict, 10)
-
-    def on_verdict(self, verdict: String) -> None:
-        """Publish the next candidate."""
-        if self.left:
-            self.publisher.publish(String(data=self.left.pop(0)))
+    return in_order("limiter", seed, RIGHT, WRONG)
 
 
 def companions(seed: int) -> list[Any]:
     """Return the programs of a seed."""
-    return [partial(Candidates, seed)]
+    return [partial(Candidates, candidates(seed))]

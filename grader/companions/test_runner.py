@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from grader.workspace.installation import read_sources
+from sim.ros.fibers.scheduler import engine
+from sim.ros.launching.respawned import kill
 
 CANDIDATES, VERDICTS = "/candidates", "/verdicts"
 OWN = "own"
@@ -19,17 +21,18 @@ DISCOVERY = 10_000_000_000  # ns in which a program that sends candidates is dis
 MOST_TEXT, MOST_REASON = 500, 100  # characters of a verdict, and of why a test failed
 
 
-def run_tests(workspace: Any, package: str, module: str) -> Callable[[], None]:
+def run_tests(workspace: Any, package: str, module: str, launches: bool = False) -> Callable[[], None]:
     """A `prepare` for scenarios: a program that runs a package's tests.
 
     It tries the package as it is, and then each module that is published on /candidates (String, the first
     line is its name) in place of its own. Verdicts are published on /verdicts (String): a name, `passed` or
-    `failed`, the number of tests, and what failed. module: its path below the package's folder.
+    `failed`, the number of tests, and what failed. module: its path below the package's folder. launches: the
+    tests start programs, which must have ended with them.
     """
 
     def tests() -> None:
         sources = read_sources(workspace, package)
-        _Tester(sources, package, module).run()
+        _Tester(sources, package, module, launches).run()
 
     return tests
 
@@ -37,8 +40,8 @@ def run_tests(workspace: Any, package: str, module: str) -> Callable[[], None]:
 class _Tester:
     """Publishes verdicts on candidates, in a context of its own: the tests have the default one."""
 
-    def __init__(self, sources: Mapping[str, bytes], package: str, module: str) -> None:
-        self._sources, self._package, self._module = sources, package, module
+    def __init__(self, sources: Mapping[str, bytes], package: str, module: str, launches: bool) -> None:
+        self._sources, self._package, self._module, self._launches = sources, package, module, launches
 
     def run(self) -> None:
         """Try the package's own module, then each candidate."""
@@ -63,14 +66,21 @@ class _Tester:
         ):
             executor.spin_once(timeout_sec=0.1)
         executor.spin_once(timeout_sec=0.2)  # the other side discovers this one, too
-        verdicts.publish(String(data=self._verdict(OWN, None)))
+
+        def judge(name: str, text: bytes | None) -> None:
+            outcome = self._outcome(text)
+            left = _end_programs() if self._launches else []
+            outcome = f"{FAILED} 1 left running: {', '.join(left)}" if left else outcome
+            verdicts.publish(String(data=f"{name} {outcome}"[:MOST_TEXT]))
+
+        judge(OWN, None)
         while True:
             while not waiting:
                 executor.spin_once()
             name, _, text = waiting.pop(0).partition("\n")
-            verdicts.publish(String(data=self._verdict(name, text.encode())))
+            judge(name, text.encode())
 
-    def _verdict(self, name: str, text: bytes | None) -> str:
+    def _outcome(self, text: bytes | None) -> str:
         files = {path.removeprefix(f"{self._package}/"): data for path, data in self._sources.items()}
         if text is not None:
             files[self._module] = text
@@ -79,24 +89,36 @@ class _Tester:
                 file = Path(folder, path)
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_bytes(data)
-            outcome = _pytest(Path(folder), self._package)
-        return f"{name} {outcome}"[:MOST_TEXT]
+            return _pytest(Path(folder), self._package)
 
 
 def _pytest(folder: Path, package: str) -> str:
     """The outcome of the tests of the package in this folder, and of each test that failed."""
     import pytest
+    from launch_pytest import plugin
 
     reports, before = _Reports(), list(sys.path)
     sys.path.insert(0, str(folder))
     _forget(package)
     try:
-        code = pytest.main([*OPTIONS, "--rootdir", str(folder), str(folder / "test")], plugins=[reports])
+        code = pytest.main(
+            [*OPTIONS, "--rootdir", str(folder), str(folder / "test")], plugins=[reports, plugin]
+        )
     finally:
         sys.path[:] = before
         _forget(package)
     outcome = PASSED if code == pytest.ExitCode.OK else FAILED
     return f"{outcome} {reports.tests} {'; '.join(reports.failed) or pytest.ExitCode(code).name}"
+
+
+def _end_programs() -> list[str]:
+    """End the programs that this one has started, and which are still running; returns their names."""
+    run = engine()
+    own = run.current.process
+    left = [each for each in run.programs if each is not own and not each.from_course and run.lives(each)]
+    for program in left:
+        kill(run, program)
+    return sorted(program.name for program in left)
 
 
 def _forget(package: str) -> None:

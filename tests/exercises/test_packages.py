@@ -25,6 +25,7 @@ class TestPackages(Assignment):
         cells = executed("course", f"{self.folder}/lesson") | executed("course", f"{self.folder}/launching")
         assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
         assert "0.51 m before the wall, 0 touches\nmy_interfaces.msg.Obstacle(" in cells["own-run"].text
+        assert "1 passed" in cells["launch-test-run"].text
         assert cells["launch-ends"].text == "left: 0.51 m before the wall\nright: 1.51 m before the wall\n"
         assert cells["launch-one-run"].text.endswith("1.01 m before the wall, 0 touches\n")
         assert cells["respawn-run"].text.count("process has died") == 4

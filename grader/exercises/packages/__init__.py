@@ -9,6 +9,7 @@ from grader.exercises.packages.crates import crates
 from grader.exercises.packages.gauge import gauge
 from grader.exercises.packages.greeter import greeter
 from grader.exercises.packages.keeper import keeper
+from grader.exercises.packages.launch_test import launch_test
 from grader.exercises.packages.limiter import limiter
 from grader.exercises.packages.odometer import odometer
 from grader.exercises.packages.patrol import patrol
@@ -18,5 +19,6 @@ from grader.trial import see
 
 __all__ = [
     "LANES", "VoltageProbe", "WeatherStation", "convoy", "crates", "gauge", "greeter", "keeper",
-    "limiter", "odometer", "patrol", "rearranged", "repaired", "see", "session", "station", "write_watchman",
+    "launch_test", "limiter", "odometer", "patrol", "rearranged", "repaired", "see", "session", "station",
+    "write_watchman",
 ]

@@ -1,16 +1,15 @@
 """A package with tests: they pass right nodes, catch wrong ones, and run with each push."""
 
 from functools import partial
-from typing import NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes
+from grader.checks.candidate_verdicts import TestVerdict, candidate_verdicts, own_verdict
 from grader.checks.ci_workflow import read_workflow, require_tests
 from grader.checks.packages import package_of
 from grader.companions.limiter_candidates import RIGHT, WRONG, candidates, companions
-from grader.companions.test_runner import OWN, PASSED, VERDICTS, run_tests
+from grader.companions.test_runner import VERDICTS, run_tests
 from grader.exercise import Exercise, Scenario
 from grader.workspace.package import PackageRun
-from sim.evidence import Recording
 
 TESTS, WORKFLOWS = "limiter/test/", "limiter/.github/workflows/"
 ALL = len(RIGHT) + len(WRONG)
@@ -18,17 +17,6 @@ ENOUGH = 9  # of the wrong ones: no line of the contract can be left out
 TOO_STRICT = ("Require no more than the contract does: the zero after silence may be 0.1 s late, and /hold "
               "may respond with any message.")
 
-
-class TestVerdict(NamedTuple):
-    """The outcome of the tests on a candidate. tests: how many ran. failed: what failed."""
-
-    name: str
-    passed: bool
-    tests: int
-    failed: str
-
-
-NOTHING_FOUND = "NO_TESTS_COLLECTED"  # pytest's name for it, in a verdict
 
 limiter = Exercise("limiter", "A package with tests", package="limiter", scenarios=[
     Scenario(seconds=600, seed=1, prepare=partial(run_tests, "limiter", "limiter/node.py"),
@@ -45,11 +33,7 @@ def tests_pass_on_your_node(run: PackageRun) -> TestVerdict:
     """The package has tests, and they pass on its own limiter."""
     with hinting("Your tests take too long: wait for what should arrive, and no longer than you have to."):
         publishes(run, VERDICTS, "std_msgs/msg/String")
-    own = _verdicts(run)[OWN]
-    if not own.passed or not own.tests:
-        saw = "no test" if own.failed in ("", NOTHING_FOUND) else own.failed
-        raise Missed("tests that pass on limiter/node.py", saw, about=(own,))
-    return own
+    return own_verdict(run, "limiter/node.py")
 
 
 @limiter.check(3, after=tests_pass_on_your_node)
@@ -85,21 +69,7 @@ def runs_with_each_push(run: PackageRun) -> None:
     require_tests(read_workflow(found[0], sources[found[0]]))
 
 
-def _verdicts(run: Recording) -> dict[str, TestVerdict]:
-    """The first verdict on each candidate, by its name."""
-    found: dict[str, TestVerdict] = {}
-    for row in run.messages(VERDICTS):
-        name, outcome, tests, failed = [*row.message.data.split(" ", 3), "", "", ""][:4]
-        number = int(tests) if tests.isdigit() else 0
-        found.setdefault(name, TestVerdict(name, outcome == PASSED, number, failed))
-    return found
-
-
-def _judged(run: Recording) -> list[tuple[bool, TestVerdict]]:
-    """Whether a candidate is right, and the verdict on it. Raises Missed if one has none."""
-    found, truth = _verdicts(run), candidates(run.seed)
-    for number in range(1, len(truth) + 1):
-        if str(number) not in found:
-            hint = "A wrong limiter may publish nothing: give each loop that waits for a message a timeout."
-            raise Missed(f"verdicts on {len(truth)} candidates", f"none on candidate {number}", hint)
-    return [(right, found[str(number)]) for number, (right, _) in enumerate(truth, 1)]
+def _judged(run: PackageRun) -> list[tuple[bool, TestVerdict]]:
+    """Whether a candidate is right, and the verdict on it."""
+    hint = "A wrong limiter may publish nothing: give each loop that waits for a message a timeout."
+    return candidate_verdicts(run, candidates(run.seed), hint)

@@ -1,5 +1,6 @@
 """Tests of a package, run by pytest in simulated time, on its own module and on others."""
 
+import pytest
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -83,3 +84,53 @@ def test_a_set_up_that_fails_and_a_test_without_end_are_failures(tmp_path):
     assert verdicts(tmp_path, TEST.replace("test_a_number()", "test_a_number(broken)"))[0] == (
         "own failed 1 test_a_number: ValueError: no set-up"
     )
+
+
+LAUNCH_TEST = """\
+import asyncio
+import threading
+import time
+
+import launch_pytest
+import pytest
+from launch import LaunchDescription, LaunchService
+from launch_ros.actions import Node
+
+
+def description():
+    return LaunchDescription([Node(package="demo_nodes_py", executable="talker")])
+
+
+@launch_pytest.fixture
+def launched():
+    return description()
+
+
+@pytest.mark.launch(fixture=launched)
+def test_it(launch_context):
+    assert not launch_context.is_shutdown
+"""
+LEFT_RUNNING = """
+
+def test_what_stays():
+    service = LaunchService()
+    service.include_launch_description(description())
+    threading.Thread(target=lambda: asyncio.run(service.run_async()), daemon=True).start()
+    time.sleep(1.0)
+"""
+
+
+@pytest.mark.parametrize(
+    ("test", "verdict"),
+    [
+        (LAUNCH_TEST, "own passed 1 OK"),
+        (LAUNCH_TEST + LEFT_RUNNING, "own failed 1 left running: talker"),
+    ],
+)
+def test_a_launch_test_has_to_end_what_it_starts(tmp_path, test, verdict):
+    file = tmp_path / "src/steady/test/test_it.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(test)
+    program = run_tests(tmp_path, "steady", "launch/it.launch.py", True)
+    recording = run(program, companions=[Sender], seconds=30, until=lambda run: bool(run.messages(VERDICTS)))
+    assert recording.messages(VERDICTS)[0].message.data == verdict

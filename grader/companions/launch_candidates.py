@@ -1,0 +1,83 @@
+"""Launch files of the package `speed_guard`: three right ones, and eight that are wrong in one point each."""
+
+from functools import partial
+from typing import Any
+
+from grader.companions.candidates import Candidates, in_order
+
+GIVEN = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(
+            package="speed_guard",
+            executable="limiter",
+            namespace="front",
+            parameters=[{"limit": 0.3}],
+            remappings=[("request", "wanted"), ("speed", "driven")],
+        ),
+    ])
+"""
+IN_A_GROUP = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node, PushRosNamespace, SetParameter, SetRemap
+
+
+def generate_launch_description():
+    side, most = LaunchConfiguration("side"), LaunchConfiguration("most")
+    limiter = Node(package="speed_guard", executable="limiter", name="guard")
+    renamed = [SetRemap("request", "wanted"), SetRemap("speed", "driven")]
+    return LaunchDescription([
+        DeclareLaunchArgument("side", default_value="front"),
+        DeclareLaunchArgument("most", default_value=str(3 / 10)),
+        GroupAction([PushRosNamespace(side), SetParameter("limit", most), *renamed, limiter]),
+    ])
+"""
+AS_A_COMMAND = """\
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+from launch_ros.substitutions import ExecutableInPackage
+
+
+def generate_launch_description():
+    words = "-r __ns:=/front -p limit:=0.30 -r request:=/front/wanted -r speed:=/front/driven"
+    limiter = ExecutableInPackage("limiter", "speed_guard")
+    command = [limiter, "--ros-args", *words.split()]
+    return LaunchDescription([ExecuteProcess(cmd=command, output="screen")])
+"""
+RIGHT = (GIVEN, IN_A_GROUP, AS_A_COMMAND)
+NODE = GIVEN[GIVEN.index("        Node(") : GIVEN.index("    ])")]
+IMPORTS = "from launch import LaunchDescription\n"
+FOR_STOPPING = """\
+from launch.actions import EmitEvent, TimerAction
+from launch.events.process import ShutdownProcess
+"""
+STOPS = """\
+        TimerAction(period=0.2, actions=[EmitEvent(event=ShutdownProcess(process_matcher=lambda _: True))]),
+"""
+OTHER_NODE = 'ros_arguments=["-p", "guard:limit:=0.3"]'
+WRONG = (
+    GIVEN.replace('executable="limiter"', 'executable="relay"'),
+    GIVEN.replace('("request", "wanted"), ', ""),
+    GIVEN.replace(', ("speed", "driven")', ""),
+    GIVEN.replace('            parameters=[{"limit": 0.3}],\n', ""),
+    GIVEN.replace('parameters=[{"limit": 0.3}]', OTHER_NODE),
+    GIVEN.replace('            namespace="front",\n', ""),
+    GIVEN.replace(IMPORTS, IMPORTS + FOR_STOPPING).replace(NODE, NODE + STOPS),
+    GIVEN.replace(NODE, NODE + NODE.replace('"front",', '"front",\n            name="second",')),
+)
+
+
+def candidates(seed: int) -> list[tuple[bool, str]]:
+    """Whether it is right, and the text of each candidate, in the order of a seed."""
+    return in_order("launch_test", seed, RIGHT, WRONG)
+
+
+def companions(seed: int) -> list[Any]:
+    """Return the programs of a seed."""
+    return [partial(Candidates, candidates(seed))]
