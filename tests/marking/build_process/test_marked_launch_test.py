@@ -1,4 +1,4 @@
-"""A launch test beside a notebook, marked in the sandbox: its processes are programs of the run there, too."""
+"""A launch test marked in the sandbox, where its processes are programs of the run as well."""
 
 import nbformat
 import pytest

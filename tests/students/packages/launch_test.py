@@ -3,7 +3,7 @@
 from grader.companions.launch_candidates import GIVEN
 from tests.students.workspaces import Workspace, changed, package
 
-PARTS = ("NODE", "CONFTEST", "HEAD", "TESTS", "RIGHT", "TEST", "but", "tests")
+PARTS = ("NODE", "CONFTEST", "HEAD", "TESTS", "RIGHT", "TEST", "but", "tests", "IN_ONE_LAUNCH")
 TEST = "speed_guard/test/test_launch.py"
 NODE = """\
 import sys
@@ -136,23 +136,7 @@ def tests(text: str) -> Workspace:
     return Workspace(__name__, {**RIGHT, TEST: text})
 
 
-LaunchTest = Workspace(__name__, RIGHT)
-InTwoTests = tests(f"""\
-{HEAD}def test_fast(bench):
-    bench.request(7.5)
-    assert bench.wait(0.3) == [pytest.approx(0.3)]
-
-
-@pytest.mark.launch(fixture=launched)
-def test_after_the_shutdown(bench):
-    bench.request(-0.1)
-    assert bench.wait(0.3) == [-0.1]
-    yield
-    bench.request(-0.1)
-    assert bench.wait(0.3) == []
-""")
-OfItsOwn = tests("""\
-# A design of its own: one launch for the module, found through the index of packages, and a coroutine.
+IN_ONE_LAUNCH = """\
 import asyncio
 from pathlib import Path
 
@@ -191,7 +175,23 @@ async def test_answers(node, request_, speed):
             publisher.publish(Float64(data=request_))
         await asyncio.sleep(0.05)
     assert received == [speed]
+"""
+LaunchTest = Workspace(__name__, RIGHT)
+InTwoTests = tests(f"""\
+{HEAD}def test_fast(bench):
+    bench.request(7.5)
+    assert bench.wait(0.3) == [pytest.approx(0.3)]
+
+
+@pytest.mark.launch(fixture=launched)
+def test_after_the_shutdown(bench):
+    bench.request(-0.1)
+    assert bench.wait(0.3) == [-0.1]
+    yield
+    bench.request(-0.1)
+    assert bench.wait(0.3) == []
 """)
+OfItsOwn = tests(IN_ONE_LAUNCH)  # a design of its own
 
 NoTests = but(TEST)
 NothingIsAsserted = tests(f"{HEAD}def test_it(bench):\n    bench.request(2.0)\n    bench.wait(0.5)\n")
