@@ -13,6 +13,8 @@ from tf2_msgs.msg import TFMessage
 
 from tests.bench.delivery.floor import KEPT, near, wrapped, yaw_of
 
+BESIDE = 0.35  # m: the sides of a box, of which a scan may miss the rays between them
+
 
 class Thing:
     """What the lidar sees and the map doesn't show: where it is, and when it last moved."""
@@ -28,7 +30,7 @@ class Thing:
 
     def may_walk(self, now):
         """What walked a moment ago is a person, and what is new may be one."""
-        return now - self.moved < 6.0 or now - self.born < 1.0
+        return now - self.moved < 6.0 or now - self.born < 3.0
 
 
 class Perception(Node):
@@ -110,11 +112,11 @@ class Perception(Node):
         """Points that lie beside each other belong to one thing."""
         groups = []
         for point in points:
-            if groups and math.dist(groups[-1][-1], point) < 0.12:
+            if groups and math.dist(groups[-1][-1], point) < BESIDE:
                 groups[-1].append(point)
             else:
                 groups.append([point])
-        if len(groups) > 1 and math.dist(groups[0][0], groups[-1][-1]) < 0.12:
+        if len(groups) > 1 and math.dist(groups[0][0], groups[-1][-1]) < BESIDE:
             groups[0] = groups.pop() + groups[0]  # the first ray is beside the last
         return groups
 

@@ -133,7 +133,7 @@ ForgetsWhoWalks = Team(Unsocial, Decision, Control)
 class Close(Control):
     """Keeps away from people, but not far enough."""
 
-    away = 0.6
+    away = 0.7
 
 
 PassesTooClose = Team(Perception, Decision, Close)
