@@ -100,6 +100,7 @@ class RunningProgram:
         self.nodes: list[Node] = []
         self.steps = 0  # as in `Program`
         self.reader: Callable[[str, str], Any] | None = None  # called with "stdout" or "stderr", and text
+        self.ended: Callable[[], None] = lambda: None  # called at its end, even if it never began
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
@@ -152,9 +153,12 @@ class RunningProgram:
 
     def run(self) -> None:
         """The body of the program's first fiber: what `python3 node.py` would do."""
-        self._wait_for_start()
-        with lenient_fields() if self.spec.lenient else contextlib.nullcontext():
-            self._run()
+        try:
+            self._wait_for_start()
+            with lenient_fields() if self.spec.lenient else contextlib.nullcontext():
+                self._run()
+        finally:
+            self.ended()
 
     def _wait_for_start(self) -> None:
         """In another order than the usual one, a program may start later, unless another process has it."""

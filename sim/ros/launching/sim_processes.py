@@ -92,6 +92,7 @@ class SimProcess:
         spec = Process(body, arguments=arguments, host=launch.host, lenient=launch.spec.lenient)
         self._process = run.start(spec, from_course=launch.from_course)
         self._process.reader, self._on_output = self._read, on_output
+        self._process.ended = self._ended
         self._partial_lines = {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
@@ -131,6 +132,10 @@ class SimProcess:
             raise
         finally:
             self._call_in_loop(self._set_status, status)
+
+    def _ended(self) -> None:
+        """A signal may end it before its main() begins; otherwise its status is known already."""
+        self._call_in_loop(self._set_status, -(self._killed or signal.SIGINT))
 
     def _set_status(self, status: int) -> None:
         if not self._status.done():  # canceled, when launch itself was interrupted

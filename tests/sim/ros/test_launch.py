@@ -178,6 +178,19 @@ def test_a_file_is_a_program_and_one_that_ignores_sigint_is_killed(tmp_path):
     ]
 
 
+@pytest.mark.parametrize("order", ["3", "4", "8"])
+def test_a_program_that_is_stopped_before_it_has_started_ends(tmp_path, order):
+    node = tmp_path / "node.py"
+    node.write_text("import rclpy\nfrom rclpy.node import Node\nrclpy.init()\nrclpy.spin(Node('a'))\n")
+    program = f"ExecuteProcess(cmd=['python3', '{node}'])"
+    file = description(tmp_path, program, "TimerAction(period=0.1, actions=[Shutdown()])")
+    recording = run(file, seconds=30, quiet=True, order=order)
+    assert recording.ended.reason == "finished"
+    assert "/a" not in recording.graph.nodes
+    last = recording.logs[-1].text
+    assert last == f"process has died [pid 1, exit code -2, cmd 'python3 {node}']."
+
+
 def test_a_ros2_command_is_a_program(tmp_path):
     file = description(tmp_path, "ExecuteProcess(cmd=['ros2', 'pkg', 'prefix', 'std_msgs'])")
     recording = run(file, seconds=2, quiet=True)
