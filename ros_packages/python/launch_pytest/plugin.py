@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections import defaultdict
+from types import FunctionType
 from typing import Any
 
 import pytest
@@ -26,7 +27,8 @@ def pytest_configure(config: pytest.Config) -> None:
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytest.Item] | None:
     """Collect marked generators, which pytest refuses otherwise."""
-    is_test = inspect.isgeneratorfunction(obj) and collector.istestfunction(obj, name)
+    is_function = type(obj) is FunctionType  # without a look at what it says of itself
+    is_test = is_function and inspect.isgeneratorfunction(obj) and collector.istestfunction(obj, name)
     if is_test and any(mark.name == MARK for mark in getattr(obj, "pytestmark", ())):
         return list(collector._genfunctions(name, obj))
     return None

@@ -7,6 +7,7 @@ is shown. Each program imports its own copies of the modules in its package or f
 from __future__ import annotations
 
 import asyncio
+import functools
 import os
 import shlex
 import sys
@@ -14,8 +15,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
-
-from launch_process_starters import providers
 
 from sim.ros.engine.program import Process
 from sim.ros.fibers.scheduler import engine
@@ -29,6 +28,7 @@ def as_launch_program(target: Any) -> Any:
     A launch file is a Path, a text with the arguments of `ros2 launch` (a path, or a package and a file; then
     NAME:=VALUE), or a LaunchDescription. The arguments of a Process are further launch arguments.
     """
+    _provide_starter()
     spec = target if isinstance(target, Process) else Process(target)
     inner = spec.target
     if isinstance(inner, Path):
@@ -96,4 +96,9 @@ def _starter_in_a_run() -> SimProcessStarter | None:
     return None if run is None else SimProcessStarter(run)
 
 
-providers.append(_starter_in_a_run)
+@functools.cache
+def _provide_starter() -> None:
+    """Let new launch contexts in any program of a run start simulated programs."""
+    from launch_process_starters import providers  # imported late: `sim` can be imported without it
+
+    providers.append(_starter_in_a_run)
