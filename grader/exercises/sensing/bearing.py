@@ -89,7 +89,7 @@ def _of_another_width(run: Recording, wrong: list[View]) -> Mapping[str, int] | 
     """The one width with which all wrong bearings would be right, if there is one."""
     found = [(view, value) for view in wrong for value in view.values if view.true is not None]
     widths = [2 * column_of_red(pixels_of(view.image.value)) / (1 - math.tan(value)) for view, value in found
-              if abs(math.tan(value) - 1) > 1e-6]
+              if math.isfinite(value) and abs(math.tan(value) - 1) > 1e-6]
     if len(widths) < 2 or not 0 < max(widths) < 1.02 * min(widths):
         return None
     return {"width": round(widths[0])}
@@ -102,6 +102,8 @@ def _mean_of_all(pixels: np.ndarray, true: float, width: int) -> float:
 @bearing.check(3, after=has_its_endpoints, only="rgb8", hints={
     "A node that publishes more than once for an image repeats old news: publish in the image's callback, "
     "once.": lambda run, wrong: any(len(view.values) > 1 for view in wrong),
+    "A bearing is a finite number. Is there a division by 0, or a mean of no columns?":
+        lambda run, wrong: any(not math.isfinite(value) for view in wrong for value in view.values),
     "Left is positive: a column in the left half of the image has a bearing above 0.":
         _all_are(lambda pixels, true, width: -true),
     "That is the bearing in an image of {width} columns. This one has fewer or more: take image.width.":

@@ -156,6 +156,11 @@ class TangentOnly(Finder):
         return 1 - 2 * column / width
 
 
+class AlwaysInfinite(Finder):
+    def bearing(self, column, width):
+        return math.inf
+
+
 class MeanOfAll(Finder):
     """Single pixels far away move the mean."""
 
