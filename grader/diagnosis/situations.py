@@ -13,6 +13,13 @@ from grader.diagnosis.ros_situations import asyncio_pause, empty_list, invalid_d
 from sim.evidence import CallbackError, Recording
 from sim.ros.messages.codec import message_class
 
+_USES_OF_NONE = {  # an error's text, and how its line uses the attribute that is None
+    r"'NoneType' object is not subscriptable": r"\bself\.(\w+)\[",
+    r"non-iterable NoneType|NoneType' object is not iterable|must be an iterable, not NoneType": (
+        r"(?:\bin |\*|= |\()self\.(\w+)\b(?![(\[.])"
+    ),
+    r"unsupported operand .*'NoneType'|not supported between .*'NoneType'": r"\bself\.(\w+)\b(?![(\[.])",
+}
 _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 
 
@@ -25,6 +32,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or _nothing_received(error, recording)
         or _no_future(error, recording)
         or _no_value(error)
+        or _not_set_yet(error)
         or _called_with_too_little(error)
         or _gives_something_else(error)
         or _empty_slice(error)
@@ -122,6 +130,19 @@ def _no_value(error: CallbackError) -> str:
             "self.get_parameter('name').value."
         )
     return ""
+
+
+def _not_set_yet(error: CallbackError) -> str:
+    """An attribute that a callback sets, used before that."""
+    uses = next((uses for text, uses in _USES_OF_NONE.items() if re.search(text, error.text)), None)
+    names = set(re.findall(uses, _last_line(error))) if uses and error.type == "TypeError" else set()
+    if len(names) != 1:
+        return ""
+    name = names.pop()
+    return (
+        f"`self.{name}` is None there. If a callback sets it, that callback may not have been called yet: "
+        f"test first, with `if self.{name} is None:`."
+    )
 
 
 def _called_with_too_little(error: CallbackError) -> str:

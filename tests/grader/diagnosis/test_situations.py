@@ -264,3 +264,65 @@ def test_what_keeps_the_last_message_is_still_none_before_the_first():
     assert find_fault(record(LooksBeforeTheFirstMessage)).hint == (
         "No message has arrived on /lidar by then, so the variable for the latest one is still None. Test for that first, with `is None`; before the first message, send zeros to a robot."
     )
+
+
+class NotLocalized(Ticking):
+    """Uses its pose, which another callback would set, in a timer."""
+
+    pose = goal = None
+
+    def tick(self):
+        self.use()
+
+
+class NeedsAPart(NotLocalized):
+    def use(self):
+        self.say(self.pose[0])
+
+
+class UnpacksIt(NotLocalized):
+    def use(self):
+        x, _ = self.pose
+        self.say(x)
+
+
+class GoesThroughIt(NotLocalized):
+    def use(self):
+        self.say([x for x in self.pose])
+
+
+class CalculatesWithIt(NotLocalized):
+    def use(self):
+        self.say(self.pose - 1.0)
+
+
+class ComparesIt(NotLocalized):
+    def use(self):
+        self.say(self.pose > 1.0)
+
+
+class UsesTwo(NotLocalized):
+    def use(self):
+        self.say(self.pose - self.goal)
+
+
+class UnpacksWhatAMethodReturns(NotLocalized):
+    def use(self):
+        x, _ = self.place()
+        self.say(x)
+
+    def place(self):
+        pass
+
+
+@pytest.mark.parametrize("node", [NeedsAPart, UnpacksIt, GoesThroughIt, CalculatesWithIt, ComparesIt])
+def test_an_attribute_that_no_callback_has_set_yet_is_named(node):
+    assert find_fault(record(node)).hint == (
+        "`self.pose` is None there. If a callback sets it, that callback may not have been called yet: test first, "
+        "with `if self.pose is None:`."
+    )
+
+
+@pytest.mark.parametrize("node", [UsesTwo, UnpacksWhatAMethodReturns])
+def test_where_it_could_be_another_value_no_attribute_is_named(node):
+    assert "self.pose" not in find_fault(record(node)).hint

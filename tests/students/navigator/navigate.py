@@ -349,6 +349,15 @@ class GoalInOdom(Navigator):
         return self.frames.get("base_link")
 
 
+class NeedsThePoseAtOnce(Navigator):
+    """Does not wait for the localization: the pose is None then."""
+
+    def execute(self, goal_handle):
+        left = math.dist(self.pose[:2], self.goal_of(goal_handle))
+        self.get_logger().info(f"{left:.1f} m to go")
+        return super().execute(goal_handle)
+
+
 class ForgetsToSucceed(Navigator):
     def arrived(self, goal_handle):
         self.drive(0.0, 0.0)
@@ -474,6 +483,7 @@ blind = main_of(Blind)
 ignores_the_frame = main_of(IgnoresTheFrame)
 without_inflation = main_of(WithoutInflation)
 goal_in_odom = main_of(GoalInOdom)
+needs_the_pose_at_once = main_of(NeedsThePoseAtOnce)
 forgets_to_succeed = main_of(ForgetsToSucceed)
 returns_nothing = main_of(ReturnsNothing)
 succeeds_at_once = main_of(SucceedsAtOnce)
