@@ -66,8 +66,11 @@ GUESSES = (
     radio.lost_on_the_network,
     radio.late_on_the_network,
 )
-# In place of a diagnosis, where no missed check says that the lost message mattered.
-STRICTER = {connections.published_too_early: connections.only_message_too_early}
+# In place of a diagnosis, where no missed check says that the lost message or the name mattered.
+STRICTER = {
+    connections.published_too_early: connections.only_message_too_early,
+    names.topic_name_typo: names.certain_topic_typo,
+}
 # Of `tell` only: more exact than the diagnoses, for programs that have just been begun.
 FIRST_ATTEMPTS = (first_attempts.publish_not_reached, first_attempts.long_period)
 # What no check need ask for.

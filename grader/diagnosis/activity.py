@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from grader.diagnosis.parameters import OF_EVERY_NODE
 from sim.evidence import CALLS_PUBLISH, INFRASTRUCTURE_TOPICS, SPUN, WATCHES, CallbackRun, Recording
+from sim.notebook.run_programs import run_programs
 
 
 def slow_callback(recording: Recording) -> str:
@@ -14,7 +15,7 @@ def slow_callback(recording: Recording) -> str:
         of_node = [run for run in recording.callbacks if run.node == timer.node]
         fires = [run for run in of_node if run.kind == "timer" and run.callback == timer.callback]
         fired, due = len(fires), int(recording.ended.stamp / timer.period + 1e-6)
-        if _was_for_once(fires, of_node, timer.period, recording.ended.stamp):
+        if _was_canceled(fires, of_node, timer.period, recording.ended.stamp):
             continue
         slowest = max(of_node, key=lambda run: run.duration, default=None)
         if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
@@ -27,13 +28,13 @@ def slow_callback(recording: Recording) -> str:
     return ""
 
 
-def _was_for_once(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
-    """Whether a timer fired once and never again, although its node was free: it was canceled."""
-    if len(fires) != 1:
+def _was_canceled(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
+    """Whether a timer fired for the last time although its node was free for longer than its period."""
+    if not fires:
         return False
-    busy = sum(run.duration for run in of_node if run.stamp >= fires[0].stamp)
+    busy = sum(run.duration for run in of_node if run.stamp >= fires[-1].stamp)
     unfinished = max(run.duration for run in of_node)  # what runs at the end is in no recording
-    return end - fires[0].stamp - busy > period + unfinished + 1e-6
+    return end - fires[-1].stamp - busy > period + unfinished + 1e-6
 
 
 def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:
@@ -180,6 +181,8 @@ def empty_node(recording: Recording) -> str:
     busy |= {row.node for row in recording.node_facts if row.fact == WATCHES} | _parameter_holders(recording)
     if recording.ended.reason == "finished" or any(stamp > 0.0 for stamp, _ in recording.prints):
         return ""  # its program does something without the node's callbacks
+    if len(run_programs(recording)) == 1 and busy & set(recording.graph.nodes) - recording.course_nodes:
+        return ""  # it may hold the other nodes of its program
     for node in recording.graph.nodes:
         if node not in busy and node not in recording.course_nodes:
             return f"{node} has no publisher, no subscription and no timer: nothing can happen in it."

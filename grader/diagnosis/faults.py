@@ -26,7 +26,11 @@ _HINTS = {
                "callback of the same node (spin_until_future_complete, client.call): use call_async and "
                "add_done_callback, or await.",
 }
-
+_AWAITS = (
+    "A callback that awaits occupies its callback group until it has returned, and a response is handled in "
+    "the client's group. Give the client a group of its own: `callback_group=ReentrantCallbackGroup()`, with "
+    "`from rclpy.callback_groups import ReentrantCallbackGroup`."
+)
 _MAIN_HANGS = (
     "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
@@ -75,6 +79,8 @@ def _from_end(ended: Ended) -> Fault:
         hint = _FLOOD
     elif " of real time for " in ended.detail:
         hint = _WAITS_OUTSIDE
+    elif "and never returned. The response of " in ended.detail:  # with a line, it waits without `await`
+        hint = _AWAITS
     elif ended.reason == "hang" and re.match(r"[a-z_]\w*\(\) at t = \S+ s computed", ended.detail):
         hint = _MAIN_HANGS
     return Fault(

@@ -22,18 +22,26 @@ QUESTIONS |= {
     "wait_for_service",
     "wait_for_server",
 }
+QUESTIONS |= {"count_clients", "count_services", "get_node_names", "get_node_names_and_namespaces"}
+QUESTIONS |= {"get_publishers_info_by_topic", "get_subscriptions_info_by_topic", "get_topic_names_and_types"}
+# Methods and functions whose value changes by itself.
+CHANGES = {"now", "time", "monotonic", "is_ready", "random", "randint", "uniform", "choice"}
 ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
 def publish_not_reached(recording: Recording) -> str:
-    """A node that never published anything, although its callbacks ran: `publish` is not reached."""
+    """A node that never published anything, although its callbacks ran: `publish` is not reached.
+
+    A lifecycle node publishes only when it is active, and another program may activate it later.
+    """
     used = {message.sender for message in recording.messages()}
     for end in recording.graph.publishers():
         if end.node in used or end.node in recording.course_nodes or end.name in INFRASTRUCTURE_TOPICS:
             continue
         runs = [run for run in recording.callbacks if run.node == end.node]
         ran = next(filter(None, ([run for run in runs if run.kind == kind] for kind in KINDS)), [])
-        if ran and not _may_wait(recording, end, ran[0]):
+        lifecycle = any(e.name == f"{end.node}/change_state" for e in recording.graph.ends("service"))
+        if ran and not lifecycle and not _may_wait(recording, end, ran[0]):
             count = _times(ran, ran[0].callback)
             return (
                 f"{end.node} has a publisher on {end.name}, but never publishes: {ran[0].callback} ran "
@@ -64,7 +72,8 @@ def _may_wait(recording: Recording, end: Endpoint, ran: CallbackRun) -> bool:
     calls = {getattr(part, "attr", "") for part in parts}
     if "get_subscription_count" in calls:
         return not recording.graph.subscriptions(end.name)
-    return bool(calls & QUESTIONS) or any(_is_input(node, ran, part) for part in parts)
+    changing = bool(calls & (QUESTIONS | CHANGES)) or any(isinstance(part, ast.Mod) for part in parts)
+    return changing or any(_is_input(node, ran, part) for part in parts)
 
 
 def _publishes(methods: list[Function]) -> bool:
@@ -75,8 +84,12 @@ def _decisive(part: ast.AST) -> list[ast.expr]:
     """The expressions that decide whether the code inside a statement is executed."""
     if isinstance(part, ast.If | ast.IfExp | ast.While):
         return [part.test]
+    if isinstance(part, ast.Match):
+        return [part.subject, *(case.guard for case in part.cases if case.guard is not None)]
     if isinstance(part, ast.Try):
         return [inner.value for inner in part.body if isinstance(inner, ast.Assign | ast.Expr)]
+    if isinstance(part, ast.Return):  # of a method that an expression calls
+        return [part.value] if part.value is not None else []
     return [part.iter] if isinstance(part, ast.For) else []
 
 

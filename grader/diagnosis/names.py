@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Graph, Recording
 from sim.evidence.connections import name_difference
@@ -13,7 +13,13 @@ from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 # Kinds of ends that take something, each with the kind that gives it.
 _TAKERS = (("subscription", "publisher"), ("client", "service"), ("action client", "action server"))
 OTHER_WORD = 0.5  # similarity below which two words are no typos of each other
-OPPOSITES = ({"start", "stop"}, {"on", "off"}, {"input", "output"}, {"inner", "outer"}, {"source", "target"})
+PAIRS = (
+    "start stop, on off, input output, inner outer, source target, global local, ping pong, enable disable, "
+    "increase decrease, increment decrement, lock unlock, load unload, set get, set reset, request response, "
+    "connected disconnected, internal external, upper lower, minimum maximum, width height, weight height, "
+    "send receive"
+)
+OPPOSITES = [set(pair.split()) for pair in PAIRS.split(", ")]
 
 
 def shared_name(recording: Recording) -> str:
@@ -27,20 +33,35 @@ def shared_name(recording: Recording) -> str:
     )
 
 
-def topic_name_typo(recording: Recording) -> str:
+def topic_name_typo(
+    recording: Recording, holds: Callable[[Endpoint, Endpoint], bool] = lambda given, wanted: True
+) -> str:
     """A topic with only publishers and one with only subscriptions, whose names are nearly the same.
 
-    Between the course's programs it is what the exercise is about.
+    Between the course's programs it is what the exercise is about. holds: asked of both ends, in addition.
     """
     published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
     subscribed = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
     for name, near in _nearly_met(subscribed, published):
-        if _may_be_typo(published[near], subscribed[name]):
+        if _may_be_typo(published[near], subscribed[name]) and holds(published[near], subscribed[name]):
             return (
                 f"{published[near].node} publishes on {near}, {subscribed[name].node} subscribes to {name}: "
                 f"two different topics. {name_difference(published[near], subscribed[name])}"
             )
     return ""
+
+
+def certain_topic_typo(recording: Recording) -> str:
+    """The same, but for names of which one is the other with more words, as /cmd_vel and /cmd_vel_raw are.
+
+    The second may be a deliberate name, for a node that takes no part in the run.
+    """
+    return topic_name_typo(recording, _has_no_more_words)
+
+
+def _has_no_more_words(given: Endpoint, wanted: Endpoint) -> bool:
+    one, other = ({*end.name.rsplit("/", 1)[-1].lower().split("_"), ""} for end in (given, wanted))
+    return not (one < other or other < one)
 
 
 def service_name_typo(recording: Recording) -> str:

@@ -47,6 +47,17 @@ def asyncio_pause(error: CallbackError) -> str:
     )
 
 
+def init_in_with(error: CallbackError) -> str:
+    """rclpy.init() as a context manager, as the tutorials of later distributions have it."""
+    if error.type != "TypeError" or not re.search(r"\n\s+with (rclpy\.)?init\(", error.traceback):
+        return ""
+    return (
+        "`with rclpy.init():` is for ROS distributions after Jazzy: here rclpy.init() returns None. Call it "
+        "alone, `rclpy.init(args=args)`, create and spin the node after it, and end with "
+        "`rclpy.try_shutdown()`."
+    )
+
+
 def empty_list(error: CallbackError) -> str:
     """A list of text or numbers for a parameter whose default is an empty list."""
     wrong = re.search(r"'(.+)' to '(.*)' of type '(\w+)', expecting type 'BYTE_ARRAY'", error.text)

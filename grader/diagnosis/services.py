@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import ast
+
 from grader.diagnosis.bundled import bundled_nodes
+from grader.diagnosis.student_nodes import student_nodes
 from sim.evidence import Recording, is_node_service
+from sim.notebook.class_source import Function
 
 SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 
@@ -106,9 +110,35 @@ def empty_answers(recording: Recording) -> str:
     for service in dict.fromkeys(call.service for call in answered):
         responses = [call.response for call in answered if call.service == service]
         fields = list(responses[0].get_fields_and_field_types())
-        if fields and all(response == type(response)() for response in responses):
+        empty = all(response == type(response)() for response in responses)
+        if fields and empty and not _sets_a_field(recording, service):
             return (
                 f"Every answer of {service} is empty: its callback never sets a field of the response. "
                 f"Set them before you return it, as in `response.{fields[0]} = ...`."
             )
     return ""
+
+
+def _sets_a_field(recording: Recording, service: str) -> bool:
+    """Whether the code of the service's callback, if it is known, sets a field or makes a response."""
+    servers = {end.node for end in recording.graph.ends("service") if end.name == service}
+    return any(
+        _fills(method)
+        for node in student_nodes(recording)
+        if node.name in servers
+        for callback, row in node.registered.items()
+        if row.kind == "service"
+        for method in node.parts(callback)
+    )
+
+
+def _fills(method: Function) -> bool:
+    """Whether it assigns an attribute of an argument, or passes values to a Response."""
+    arguments = {argument.arg for argument in method.args.args[1:]}
+    for part in ast.walk(method):
+        if isinstance(part, ast.Call) and part.keywords and getattr(part.func, "attr", "") == "Response":
+            return True
+        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+        if stored and isinstance(part.value, ast.Name) and part.value.id in arguments:
+            return True
+    return False

@@ -9,7 +9,13 @@ from grader.diagnosis.other_types import other_type
 from grader.diagnosis.package_rules import absent_launch_file, own_module
 from grader.diagnosis.parameter_files import mixed_list, yaml_boolean
 from grader.diagnosis.rays import rays_without_distance
-from grader.diagnosis.ros_situations import asyncio_pause, empty_list, invalid_description, invalid_transition
+from grader.diagnosis.ros_situations import (
+    asyncio_pause,
+    empty_list,
+    init_in_with,
+    invalid_description,
+    invalid_transition,
+)
 from sim.evidence import CallbackError, Recording
 from sim.ros.messages.codec import message_class
 
@@ -42,6 +48,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or invalid_transition(error, recording)
         or invalid_description(error, recording)
         or asyncio_pause(error)
+        or init_in_with(error)
         or empty_list(error)
         or yaml_boolean(error)
         or mixed_list(error)

@@ -20,6 +20,7 @@ _ALWAYS_MCAP = "bags are written uncompressed, in one MCAP file. Leave it out"
 _NO_KEYS = "there are no keys to press. Use `--rate`, `--start-offset` or Ctrl-C"
 _NO_COUNTS = "requests and responses are counted together. Use `ros2 bag info`"
 _NO_INFO = "messages are printed alone. Use `ros2 topic delay`, or a callback with MessageInfo,"
+_NO_PREFIX = "each program has a prefix of its own. Use `prefix=` of Node in the launch file"
 _STDIN = "values are not read from stdin. Write them as an argument"
 _SIM_TIME = "it is measured by the clock of this machine. Leave it out"
 # Command and verb, and then each option with the reason and what to do, without the end of the sentence.
@@ -69,6 +70,7 @@ OPTIONS = {
         "--log-level": "it logs nothing. Leave it out",
     },
     "doctor": {"--exclude-packages": "no versions of packages are compared. Leave it out"},
+    "launch": {"--launch-prefix": _NO_PREFIX, "--launch-prefix-filter": _NO_PREFIX},
     "service call": {"--stdin": _STDIN},
     "topic echo": {"--include-message-info": _NO_INFO, "-i": _NO_INFO},
     "topic pub": {"--stdin": _STDIN, "--use-sim-time": _SIM_TIME, "-s": _SIM_TIME},

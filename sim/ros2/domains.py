@@ -52,11 +52,15 @@ def active_domains() -> set[int]:
 
 
 def no_nodes_hint(domain: int) -> str:
-    """The hint for a domain without nodes: the domains that have some, the course's first, or what to do."""
-    others = sorted(active_domains() - {domain}, key=lambda other: (other != COURSE_DOMAIN, other))
+    """The hint for a domain without nodes: the domains that have some, the course's first, or what to do.
+
+    The domain 0 comes last: what is there may be runs.
+    """
+    others = sorted(active_domains() - {domain}, key=lambda other: (other != COURSE_DOMAIN, not other, other))
     none = f"There are no nodes on ROS domain {domain} of this machine"
     if not others:
         return f"{none}: start a node in another terminal, with ROS_DOMAIN_ID={domain}"
-    names = " and ".join(f"{other}{OWNERS.get(other, '')}" for other in others)
+    *first, last = (f"{other}{OWNERS.get(other, '')}" for other in others)
+    names = f"{', '.join(first)} and {last}" if first else last
     which = "it" if len(others) == 1 else "the first"
     return f"{none}, but on {names}. To use {which}: export ROS_DOMAIN_ID={others[0]}"

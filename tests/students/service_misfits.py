@@ -108,3 +108,20 @@ def launch_of_a_taker():
 
 def launch_of_a_declarer():
     return Process(DeclaresWhatIsGiven, parameters={"mass": 2.0})
+
+
+class AwaitsInItsGroup(Node):
+    """Its callback and its client share the node's callback group."""
+
+    def __init__(self):
+        super().__init__("awaits")
+        self.client = self.create_client(AddTwoInts, "add")
+        self.create_timer(0.5, self.tick)
+
+    async def tick(self):
+        await self.client.call_async(AddTwoInts.Request(a=1, b=2))
+
+
+def main_of_a_later_distribution(args=None):
+    with rclpy.init(args=args):
+        rclpy.spin(Adder())

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from types import ModuleType
 from typing import Any
+from weakref import WeakSet
 
 import rclpy.experimental.events_executor
 import rclpy.wait_for_message
@@ -18,6 +20,8 @@ from sim.ros.engine.sim_executor import OrderedNodes, SimExecutor, never
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
+# Executors of TransformListener(..., spin_thread=True): whichever of two has the node, its callbacks run.
+_OF_LISTENERS: WeakSet[Executor] = WeakSet()
 PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number: rclpy's default varies
 
 
@@ -96,9 +100,11 @@ def add_node(original: Callable) -> Callable:
             return original(self, node)
         run.waiters.endpoints_changed()
         before = node.executor
+        if sys._getframe(1).f_globals.get("__name__", "").startswith("tf2_ros."):
+            _OF_LISTENERS.add(self)
         spun_before = isinstance(before, Executor) and before is not self and node in before._nodes
         added = original(self, node)
-        if spun_before:
+        if spun_before and not (self in _OF_LISTENERS or before in _OF_LISTENERS):
             before._sim.added_elsewhere(node)
         return added
 

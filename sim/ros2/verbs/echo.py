@@ -29,6 +29,7 @@ def window(default: int) -> tuple:
     NAME,
     window(10000),
     argument("--filter", metavar="EXPR", help="Only measure messages m for which this is true"),
+    flag("--wall-time", help="Changes nothing: a terminal measures wall time, and a cell its play's"),
 )
 def hz(system: System, options: Namespace) -> None:
     """Print the average publishing rate to screen."""

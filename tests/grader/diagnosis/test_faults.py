@@ -10,6 +10,7 @@ from sim.evidence import CallbackError, Ended, Recording, place_of
 from sim.ros.engine import guard
 from tests.students import misfits, mistakes
 from tests.students.engine import own_clocks, timing, waitables
+from tests.students.service_misfits import Adder, AwaitsInItsGroup
 
 
 class Flooding(misfits.Talker):
@@ -73,6 +74,19 @@ def test_a_call_to_oneself_is_blocked():
     assert fault.hint == (
         "Everything waits for something that can't happen. Inside a callback, don't wait for another callback of the "
         "same node (spin_until_future_complete, client.call): use call_async and add_done_callback, or await."
+    )
+
+
+def test_a_callback_that_awaits_a_response_of_its_own_group_is_blocked():
+    fault = find_fault(run(Adder, AwaitsInItsGroup, seconds=5, quiet=True))
+    assert fault.saw == (
+        "AwaitsInItsGroup.tick of node /awaits has waited since t = 0.5 s and never returned. The response of "
+        "service /add can only be handled in the same callback group, after it has returned."
+    )
+    assert fault.hint == (
+        "A callback that awaits occupies its callback group until it has returned, and a response is handled in "
+        "the client's group. Give the client a group of its own: `callback_group=ReentrantCallbackGroup()`, with "
+        "`from rclpy.callback_groups import ReentrantCallbackGroup`."
     )
 
 

@@ -211,6 +211,9 @@ ADVICE = {
     'SetParametersResult(successful=False, reason="...").',
     (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
     (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
+    (
+        misfits.main_of_a_later_distribution,
+    ): "`with rclpy.init():` is for ROS distributions after Jazzy: here rclpy.init() returns None. Call it alone, `rclpy.init(args=args)`, create and spin the node after it, and end with `rclpy.try_shutdown()`.",
     (Server, LooksIntoTheGoalAtOnce): TOO_EARLY.format("send_goal_async"),
     (Server, TakesTheResultOfAGoalAtOnce): TOO_EARLY.format("get_result_async"),
     (SendsAParameter,): "get_parameter() returns a parameter, which contains a value: write "

@@ -37,8 +37,13 @@ def test_the_hint_names_the_domains_that_have_nodes_and_the_course_s_first(socke
     none = "There are no nodes on ROS domain 7 of this machine"
     sockets(17910, 17911, 7410, 7411, 7400 + 250 * 50 + 12)
     assert domains.no_nodes_hint(7) == (
-        f"{none}, but on 42 (the domain of `python -m sim`) and 0 (where runs in notebooks are, too, which no"
-        " other process reaches) and 50. To use the first: export ROS_DOMAIN_ID=42"
+        f"{none}, but on 42 (the domain of `python -m sim`), 50 and 0 (where runs in notebooks are, too,"
+        " which no other process reaches). To use the first: export ROS_DOMAIN_ID=42"
+    )
+    sockets(7410, 7411, 7400 + 250 * 50 + 12)
+    assert domains.no_nodes_hint(7) == (
+        f"{none}, but on 50 and 0 (where runs in notebooks are, too, which no other process reaches)."
+        " To use the first: export ROS_DOMAIN_ID=50"
     )
     sockets(7410, 7411)
     assert domains.no_nodes_hint(7) == (

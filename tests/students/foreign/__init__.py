@@ -1,10 +1,12 @@
 """Right programs in styles that the course doesn't teach, each for a diagnosis that could mistake it."""
 
 from tests.students.foreign import (
+    conditions,
     driving,
     executors,
     later,
     legacy,
+    partners,
     services,
     shapes,
     small,
@@ -24,4 +26,6 @@ CORPUS = [
     *driving.CORPUS,
     *waiting.CORPUS,
     *later.CORPUS,
+    *conditions.CORPUS,
+    *partners.CORPUS,
 ]
