@@ -6,16 +6,24 @@ from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.fields import stamp_words
 from grader.checks.frames import broadcasts
 from grader.companions.sightings import SIGHTINGS, Team
-from grader.exercise import Exercise
+from grader.exercise import Exercise, Scenario
 from grader.geometry import Point, Pose2D
 from grader.responses import Stimuli, Stimulus, Window, same
 from sim.evidence import Recording, Seconds, since_start
+from sim.network import Network
 
 POINT, FOUND, REFUSED = "geometry_msgs/msg/PointStamped", "/found", "/refused"
 SOON, NEAR, LATE = 0.3, 0.05, 0.3  # s, m, m
+OUTSIDE = "ExtrapolationException"  # of the times of its transforms
 PART = 0.3  # less than this is none
+RADIO = Network(delay=0.05, jitter=0.04)  # s; between the student's laptop and the robots
 
-lookup = Exercise("lookup", "Where was it?", seconds=6, companions=[Team], seeds=(1, 2))
+
+def _scenario(seed: int, network: Network | None = None) -> Scenario:
+    return Scenario(None, 6, seed, [Team], network=network)
+
+
+lookup = Exercise("lookup", "Where was it?", scenarios=[_scenario(1), _scenario(2, RADIO)])
 found_sightings = Stimuli("/sighting", answered_on=FOUND, within=SOON, what="sightings of all kinds")
 refused_sightings = Stimuli("/sighting", answered_on=REFUSED, within=SOON, what="sightings of all kinds")
 
@@ -41,6 +49,7 @@ def subscribes_to_sightings(run: Recording) -> None:
 })
 def places_them(run: Recording) -> None:
     """Each sighting by a robot on the map is published on /found (PointStamped): where it was, in map."""
+    _require_no_lookup_of_now(run)
     publishes(run, FOUND, POINT)
     judged = [seen for seen in _sightings(run) if not _reason(run, seen)]
     shares = [_share(run, seen) for seen in judged]
@@ -95,6 +104,18 @@ def keeps_the_stamp(run: Recording) -> None:
             raise Missed("a stamp of one of the sightings", stamp_words(stamp), hint)
 
 
+def _require_no_lookup_of_now(run: Recording) -> None:
+    """Over a network, the transforms of now arrive only later: a lookup of them finds none."""
+    refused = refused_sightings(run, at_least=len(SIGHTINGS))
+    early = (seen for seen in refused if seen.values() == [OUTSIDE] and not _reason(run, seen))
+    seen = next(early, None)
+    if seen and not run.messages(FOUND):
+        hint = ("The transforms come over a network, so those of now aren't there yet: look up the time of "
+                "the sighting, msg.header.stamp.")
+        expected = f"the place of the sighting at {seen.stamp:.3g} s"
+        raise Missed(expected, f"{seen.seen()} on {REFUSED}", hint)
+
+
 def _sightings(run: Recording) -> list[Stimulus]:
     return found_sightings(run, at_least=len(SIGHTINGS))
 
@@ -129,7 +150,7 @@ def _reason(run: Recording, seen: Stimulus) -> str:
     trees = {one.message.header.frame_id for one in sent}
     if "map" not in trees:
         return "ConnectivityException" if trees else "LookupException"
-    return "ExtrapolationException" if _measured(seen) < 0 else ""
+    return OUTSIDE if _measured(seen) < 0 else ""
 
 
 def _robot(seen: Stimulus) -> str:

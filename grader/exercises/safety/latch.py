@@ -7,9 +7,10 @@ from grader.checks import Missed, publishes, serves, subscribes
 from grader.checks.no_data import no_data
 from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
 from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
-from grader.exercise import Exercise
+from grader.exercise import Exercise, Scenario
 from grader.responses import EDGE, Window, from_course, requests_from_course, require_standing, same
 from sim.evidence import Call, Recording, Seconds
+from sim.network import Network
 
 SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when the button is silent
 LATELY = 0.25  # s, for which a command may be repeated
@@ -18,8 +19,14 @@ LATCH = ("The stop ended by itself. Store in self.stopped that the button was pr
 BROKEN = ("A broken cable counts as pressed: as long as the button is silent, refuse /reset. Check the age "
           "of the button's last message in reset, too, not only in the timer.")
 
-latch = Exercise("latch", "An emergency stop that latches", world="yard", seconds=14,
-                 companions=[EmergencyOperator], seeds=(1, 2))
+RADIO = Network(delay=0.05, jitter=0.04)  # s; between the student's laptop and the robot
+
+
+def _scenario(seed: int, network: Network | None = None) -> Scenario:
+    return Scenario("yard", 14, seed, [EmergencyOperator], network=network)
+
+
+latch = Exercise("latch", "An emergency stop that latches", scenarios=[_scenario(1), _scenario(2, RADIO)])
 
 
 class Times(NamedTuple):
