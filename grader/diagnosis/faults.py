@@ -77,7 +77,7 @@ def _from_end(ended: Ended) -> Fault:
     hint = _HINTS[ended.reason]
     if " messages at " in ended.detail:
         hint = _FLOOD
-    elif " of real time for " in ended.detail:
+    elif re.search(" of real time for | in a call that simulated time can't shorten", ended.detail):
         hint = _WAITS_OUTSIDE
     elif "and never returned. The response of " in ended.detail:  # with a line, it waits without `await`
         hint = _AWAITS

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing.connection
+import os
 import subprocess
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -36,6 +37,17 @@ def wait_for_child(original: Callable) -> Callable:
         run.guard.waited("another process")
 
     return _wait
+
+
+@hook(os, "system", REASON)
+def system(original: Callable) -> Callable:
+    def system(command: str) -> int:
+        if engine() is None:
+            return original(command)
+        status = subprocess.call(command, shell=True)  # C's function can't be interrupted
+        return -status if status < 0 else status << 8
+
+    return system
 
 
 @hook(multiprocessing.connection, "wait", REASON)

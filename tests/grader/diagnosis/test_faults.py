@@ -90,6 +90,16 @@ def test_a_callback_that_awaits_a_response_of_its_own_group_is_blocked():
     )
 
 
+def test_a_wait_for_something_outside_the_run(monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 0.3)
+    fault = fault_of(timing.waits_for_what_a_slow_child_prints)
+    assert " waited for 0.3 s in a call that simulated time can't shorten, at line " in fault.saw
+    assert fault.hint == (
+        "Simulated time stands still during such a wait, so a run has a limit for it. Let the other program take "
+        "part in the run, as in run(A, B), or start this one in a terminal."
+    )
+
+
 def test_work_not_started_says_what_is_to_do():
     assert fault_of(mistakes.NotStarted) == Fault(
         expected="your own code instead of `raise NotImplementedError`",

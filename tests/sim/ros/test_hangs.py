@@ -1,6 +1,7 @@
 """Code that never gives control back is stopped and named; the next run in the same process is as usual."""
 
 import re
+import signal
 from pathlib import Path
 
 import pytest
@@ -190,9 +191,10 @@ def test_the_others_are_recorded_to_the_end_of_that_moment(usual):
 
 @pytest.mark.parametrize("program, line", [
     (timing.waits_for_a_slow_child, 'subprocess.run(["sleep", "60"], check=True)'),
+    (timing.waits_for_a_slow_shell, 'os.system("sleep 60")'),
     (timing.waits_for_a_slow_child_with_a_timeout, "child.wait(timeout=50)"),
     (timing.waits_for_a_slow_connection, "multiprocessing.connection.wait([here])"),
-], ids=["run", "wait", "connection"])  # fmt: skip
+], ids=["run", "system", "wait", "connection"])  # fmt: skip
 def test_waiting_for_another_process_has_a_limit_on_wall_time(program, line, monkeypatch):
     monkeypatch.setattr(guard, "WAITING_LIMIT", 0.3)
     recording = run(program, seconds=3, quiet=True)
@@ -205,3 +207,8 @@ def test_a_shorter_wait_for_another_process_ends_as_it_does_without_a_run(monkey
     monkeypatch.setattr(guard, "WAITING_LIMIT", 60.0)
     recording = run(timing.waits_shortly_for_a_connection, seconds=3, quiet=True)
     assert [line.text for line in recording.logs] == ["0", "1"]
+
+
+def test_the_shell_s_status_is_that_without_a_run():
+    recording = run(timing.asks_the_shell, seconds=1, quiet=True)
+    assert [line.text for line in recording.logs] == [f"{3 << 8} {int(signal.SIGKILL)}"]

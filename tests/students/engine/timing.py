@@ -184,6 +184,27 @@ def waits_for_a_slow_child():
     subprocess.run(["sleep", "60"], check=True)
 
 
+def waits_for_a_slow_shell():
+    rclpy.init()
+    Node("parent")
+    os.system("sleep 60")
+
+
+def asks_the_shell():
+    rclpy.init()
+    Node("parent").get_logger().info(f"{os.system('exit 3')} {os.system('kill -9 $$')}")
+
+
+def waits_for_what_a_slow_child_prints():
+    rclpy.init()
+    Node("parent")
+    with subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE) as child:
+        try:
+            child.communicate()
+        finally:
+            child.kill()
+
+
 def waits_for_a_slow_child_with_a_timeout():
     rclpy.init()
     Node("parent")
