@@ -121,6 +121,13 @@ def reindex(output: Output, options: Namespace) -> None:
     output.print_line("Reindexing complete.")
 
 
+# Keys of an output bag, what each asks for, and the values that change nothing.
+REFUSED = {
+    "compression_mode": ("compressed", ("none",)),
+    "storage_id": ("in another format than mcap", ("mcap",)),
+    "max_bagfile_size": ("split into several files", (0,)),
+    "max_bagfile_duration": ("split into several files", (0,)),
+}
 EXAMPLE = "output_bags: [{uri: new_bag, all_topics: true}]"
 
 
@@ -166,7 +173,8 @@ def _outputs(file: Path) -> list[tuple[Path, TopicSelection]]:
     valid = isinstance(outputs, list) and all(isinstance(each, dict) and each.get("uri") for each in outputs)
     if not valid:
         raise CliError(f"{file} has no list of output_bags, each with a uri, such as {EXAMPLE}.")
-    compressed = [each["uri"] for each in outputs if each.get("compression_mode") not in (None, "", "none")]
-    if compressed:
-        raise CliError(f"{file}: {compressed[0]} can't be compressed here: leave out compression_mode.")
+    for each in outputs:
+        for key, (what, values) in REFUSED.items():
+            if each.get(key) not in (None, "", *values):
+                raise CliError(f"{file}: {each['uri']} can't be {what} here: leave out {key}.")
     return [(Path(each["uri"]), TopicSelection.of(each)) for each in outputs]

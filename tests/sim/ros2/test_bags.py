@@ -140,6 +140,14 @@ def test_bags_are_split_and_merged(printed):
             "out.yaml: small can't be compressed here: leave out compression_mode.\n",
         ),
         (
+            "output_bags: [{uri: other, storage_id: sqlite3}]",
+            "out.yaml: other can't be in another format than mcap here: leave out storage_id.\n",
+        ),
+        (
+            "output_bags: [{uri: parts, storage_id: mcap, max_bagfile_size: 1000}]",
+            "out.yaml: parts can't be split into several files here: leave out max_bagfile_size.\n",
+        ),
+        (
             "output_bags: [{uri: new, regex: '('}]",
             "'(' is not a regular expression: missing ), unterminated subpattern at position 0.\n",
         ),
