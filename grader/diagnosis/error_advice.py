@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from grader.diagnosis.package_rules import PACKAGE_RULES
+from grader.diagnosis.package_rules import PACKAGE_RULES, launch_file_advice
 from grader.diagnosis.parameter_rules import PARAMETER_RULES
 from grader.diagnosis.python_rules import PYTHON_RULES
 from grader.diagnosis.rules import RULES
@@ -60,7 +60,7 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
-    absent = explain_absent_name(error.type, error.text)
+    absent = explain_absent_name(error.type, error.text) or launch_file_advice(error)
     if absent:
         return absent
     for rule in _ALL_RULES:

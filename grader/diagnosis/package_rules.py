@@ -41,6 +41,24 @@ PACKAGE_RULES = (
 )  # fmt: skip
 
 
+def launch_file_advice(error: CallbackError) -> str:
+    """What to do about a name in a launch file that names no program of the student's; else ""."""
+    lost = re.match(r"Can not find attribute '(\w+)' in Entity '(\w+)'", error.text)
+    if error.type == "AttributeError" and lost:
+        return f"`{lost[2]}` needs `{lost[1]}`, on the line of the launch file that the error names."
+    if error.type != "ExecutableNotFound" or re.search(r"setup\.py|into bin|not a Python", error.text):
+        return ""
+    if "CMakeLists.txt" in error.text:
+        return (
+            "A program of a package with a CMakeLists.txt is a file in install(PROGRAMS ... DESTINATION "
+            "lib/PACKAGE). Check each letter of its name, .py included."
+        )
+    typo = re.search(r"but no (\S+)\. Did you mean (\S+)\?", error.text)
+    if typo:
+        return f"Write `{typo[2]}` in the place of `{typo[1]}`."
+    return "The course has no such program. Its error says what to use in its place."
+
+
 def own_module(error: CallbackError, recording: Recording) -> str:
     """What to do where a package's program finds no module or function, and the package has one; else ""."""
     sources = getattr(getattr(recording, "package", None), "sources", {})

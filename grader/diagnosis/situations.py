@@ -190,7 +190,7 @@ def _empty_slice(error: CallbackError) -> str:
 
 def _not_there(error: CallbackError) -> str:
     """A file or a program that is not found."""
-    name = re.search(r"No such file or directory: '(.*)'", error.text)
+    name = re.search(r"No such file or directory: '(.*?)'(?:\. (Did you mean '.*?'\?))?", error.text)
     if error.type != "FileNotFoundError" or name is None:
         return ""
     if re.search(r"subprocess|Popen|\brun\(|check_output\(|check_call\(", _last_line(error)):
@@ -198,6 +198,9 @@ def _not_there(error: CallbackError) -> str:
             f"There is no program `{name[1]}` on this machine. What it would do can often be done in Python: "
             "a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do."
         )
+    if name[2] or re.search(r"/share/.*\.launch(\.\w+)?$", name[1]):
+        installed = "A launch file of a package has to be installed: its setup.py or CMakeLists.txt names it."
+        return f"There is no file `{name[1]}`. {name[2] or installed}"
     return (
         f"There is no file `{name[1]}`. A name without a slash in front is looked for in the folder that the "
         "program was started in, here the notebook's: `os.getcwd()` names it, `os.listdir()` what is in it."

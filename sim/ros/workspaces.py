@@ -15,14 +15,16 @@ def why_unavailable(package: str) -> str:
     """Why a package in a workspace here was not found, and what to do; "" for any other."""
     for folder in _workspaces():
         shown = os.path.relpath(folder)
+        at, into = ("here", "") if shown == "." else (f"in {shown}", f"{shown}/")
         descriptions = {file: read_name(file) for file in _descriptions(folder / "src")}
         for file, (_, error) in descriptions.items():
-            if error and file.parent.name == package:  # colcon builds it as a plain Python package
+            if file.parent.name == package and (error or why_invalid(file)):  # built as plain Python
+                error = error or why_invalid(file)
                 return f"{os.path.relpath(file)} is not valid: {error}. Correct it, and build again."
         if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
-            return f"it is built but not sourced: source('{shown}/install/setup.bash') does that."
+            return f"it is built but not sourced: source('{into}install/setup.bash') does that."
         if any(name == package for name, _ in descriptions.values()):
-            return f"it is in {shown}/src but not built: run colcon build in {shown}."
+            return f"it is in {into}src but not built: run colcon build {at}."
     return ""
 
 
@@ -32,6 +34,20 @@ def read_name(file: Path) -> tuple[str, str]:
         return (ElementTree.parse(file).findtext("name") or "").strip(), ""
     except ElementTree.ParseError as error:
         return "", str(error)
+
+
+def why_invalid(file: Path) -> str:
+    """What colcon does not accept in a package.xml, or ""."""
+    try:
+        from catkin_pkg.package import InvalidPackage, parse_package  # slow, and colcon's
+    except ImportError:
+        return ""
+    try:
+        kind = parse_package(file, warnings=[]).get_build_type()
+    except (AssertionError, InvalidPackage) as error:
+        return str(error).splitlines()[-1].removeprefix("- ").rstrip(".")
+    known = kind in ("ament_python", "ament_cmake", "cmake")
+    return "" if known else "its <export> needs the build_type ament_python or ament_cmake"
 
 
 def _workspaces() -> Iterator[Path]:

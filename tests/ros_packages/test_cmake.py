@@ -34,7 +34,7 @@ ament_package()
 NAMES = "ament_lint_common control_msgs example_interfaces launch_ros message_filters nav2_msgs rclpy tf2"
 NAMING = f"""\
 find_package(ament_cmake REQUIRED)
-foreach(package {NAMES} tf2_geometry_msgs tf2_msgs tf2_ros turtlesim)
+foreach(package {NAMES} ament_cmake_mypy sensor_msgs_py xacro tf2_geometry_msgs tf2_msgs tf2_ros turtlesim)
   find_package(${{package}} REQUIRED)
 endforeach()
 ament_export_dependencies(tf2_ros turtlesim)
@@ -82,11 +82,13 @@ def write(workspace: Path, name: str, rules: str, depends: str = "") -> None:
     (folder / "launch").mkdir(parents=True)
     (folder / "launch" / "one.launch.py").write_text("")
     (folder / "package.xml").write_text(PACKAGE_XML.format(name=name, depends=depends))
-    head = f"cmake_minimum_required(VERSION 3.10)\nproject({name} NONE)\n"
+    head = f"cmake_minimum_required(VERSION 3.8)\nproject({name} NONE)\n"
     (folder / "CMakeLists.txt").write_text(f"{head}{rules}")
 
 
 def colcon(folder: Path, *arguments: str, **variables: str) -> subprocess.CompletedProcess:
+    # As ros.pth sets it, also where set-up did not write that yet.
+    variables.setdefault("CMAKE_POLICY_VERSION_MINIMUM", "3.10")
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | variables
     return subprocess.run(
         [COLCON, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False
@@ -110,7 +112,8 @@ def test_packages_build_that_name_linters_messages_and_python_packages(configure
         "rclcpp": "rclcpp is for C++ (ROS's library for C++), and C++ nodes are not built here. Nodes in "
         "Python need no such line.",
         "cv_bridge": "cv_bridge (converts between ROS images and OpenCV's arrays) is a ROS package that the "
-        "course does not include.",
+        "course does not include. Remove its find_package if nothing here uses it.",
+        "catkin": "catkin is a package of ROS 1. ROS 2 has ament_cmake, or ament_python.",
     }.items(),
 )
 def test_a_package_that_is_not_here_is_explained_in_a_sentence(package, sentence, configured, tmp_path):
@@ -150,6 +153,21 @@ def test_a_package_that_no_one_has_is_explained_in_a_sentence(explaining, tmp_pa
         "first. Write <depend>second</depend> into the package.xml of first.",
         f"near: {begin.format('std_msg')} Did you mean std_msgs?",
     ]
+
+
+def test_a_package_xml_that_is_not_valid_is_named_during_the_build(explaining, tmp_path):
+    folder = tmp_path / "src" / "wrong"
+    folder.mkdir(parents=True)
+    (folder / "setup.py").write_text("from setuptools import setup\nsetup(name='wrong')\n")
+    (folder / "package.xml").write_text(PACKAGE_XML.format(name="wrong", depends="<depend>a<depend>"))
+    done = colcon(tmp_path, "build", **explaining)
+    why = "its package.xml is not valid: mismatched tag: line 7, column 2"
+    said = f"wrong: {why}. It is built without ROS, and ros2 does not find it."
+    assert said in done.stderr.splitlines()
+
+
+def test_the_environment_lets_cmake_build_what_was_written_for_an_older_one():
+    assert prefix.PTH.endswith("os.environ.setdefault('CMAKE_POLICY_VERSION_MINIMUM', '3.10')\n")
 
 
 @pytest.mark.soak  # rosidl and its C++ take half a minute

@@ -157,3 +157,35 @@ def test_a_timer_whose_scope_has_ended_names_its_line_in_python(tmp_path):
     )
     (line,) = of_xml(tmp_path, f"<launch><group><include file='{inner}'/></group></launch>", status=1)
     assert line == fails_with(f"launch configuration 'robot' does not exist ({inner}, line 10)")[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    {
+        "<node pkg='a' type='b'/>": "`type` of `node` is of ROS 1: ROS 2 has exec.",
+        "<node exec='a' required='true'/>": '`required` of `node` is of ROS 1: ROS 2 has on_exit="shutdown".',
+        "<group ns='a'/>": "`ns` of `group` is of ROS 1: ROS 2 has a push_ros_namespace entity in the group.",
+        "<arg name='a' value='b'/>": "`value` of `arg` is of ROS 1: ROS 2 has let for a fixed value, or "
+        "default for one that can be changed.",
+        "<param name='a' value='b'/>": "`param` belongs in a node in ROS 2; set_parameter sets one for all "
+        "nodes of its group.",
+        "<rosparam file='a'/>": '`rosparam` is of ROS 1: ROS 2 has <param from="FILE"/> in a node.',
+        "<log message='$(find a)/b'/>": "$(find ...) is of ROS 1: ROS 2 has $(find-pkg-share ...).",
+        "<log message='$(arg a)'/>": "$(arg ...) is of ROS 1: ROS 2 has $(var ...).",
+        "<node_container pkg='a' exec='b'/>": "`node_container` loads C++ components, which are not built "
+        "here: start each node with a node entity.",
+    }.items(),
+)
+def test_what_is_of_ros_1_or_of_cpp_is_named_with_what_to_write(tmp_path, text, sentence):
+    (found,) = of_xml(tmp_path, f"<launch>\n{text}\n</launch>", status=1)
+    assert found == fails_with(f"{sentence} ({tmp_path}/some.launch.xml, line 2)")[0]
+
+
+@pytest.mark.parametrize("end", ["xml", "yaml", "py"])
+def test_a_misspelt_name_of_an_included_file_is_recognized(tmp_path, end):
+    (tmp_path / f"child.launch.{end}").write_text("")
+    include = f"<include file='{tmp_path}/chlid.launch.{end}'/>"
+    (found,) = of_xml(tmp_path, f"<launch>\n{include}\n</launch>", status=1)
+    lost = f"[Errno 2] No such file or directory: '{tmp_path}/chlid.launch.{end}'"
+    lost += f". Did you mean 'child.launch.{end}'?"
+    assert found == fails_with(f"{lost} ({tmp_path}/some.launch.xml, line 2)")[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import traceback
 from importlib.machinery import SourceFileLoader
@@ -38,6 +39,7 @@ class InvalidLaunchFileError(Exception):
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
     """The result of `generate_launch_description()` in a file. Raises InvalidPythonLaunchFileError."""
+    _check_is_there(python_launch_file_path)
     loader = SourceFileLoader(PYTHON_FILE, str(python_launch_file_path))
     module = module_from_spec(spec_from_loader(loader.name, loader))
     exec(loader.source_to_code(Path(loader.path).read_bytes(), loader.path), vars(module))  # never cached
@@ -61,19 +63,29 @@ def get_launch_description_from_xml_launch_file(path: str) -> LaunchDescription:
 
 def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
     """The launch description in a file, by its suffix. Raises InvalidLaunchFileError for an unknown one."""
+    _check_is_there(launch_file_path)
     kind = Path(launch_file_path).suffix
     if kind == ".py":
         return get_launch_description_from_python_launch_file(launch_file_path)
     if kind in (".yaml", ".yml"):
         return get_launch_description_from_yaml_launch_file(launch_file_path)
-    if kind in (".xml", ".launch") and Path(launch_file_path).is_file():
+    if kind in (".xml", ".launch"):
         return get_launch_description_from_xml_launch_file(launch_file_path)
-    if not Path(launch_file_path).is_file():
-        raise FileNotFoundError(f"[Errno 2] No such file or directory: '{launch_file_path}'")
     raise InvalidLaunchFileError(
         f"'{launch_file_path}' is not a launch file that can be read here: they are in Python (.py), XML "
         "(.xml, .launch) or YAML (.yaml)."
     )
+
+
+def _check_is_there(path: str) -> None:
+    """Raise FileNotFoundError with the file of nearly that name, if there is no such file."""
+    if Path(path).is_file():
+        return
+    folder = Path(path).parent
+    names = [file.name for file in folder.iterdir() if file.is_file()] if folder.is_dir() else []
+    near = next(iter(difflib.get_close_matches(Path(path).name, sorted(names), n=1, cutoff=0.8)), "")
+    guess = f". Did you mean '{near}'?" if near else ""
+    raise FileNotFoundError(f"[Errno 2] No such file or directory: '{path}'{guess}")
 
 
 class LaunchDescriptionSource:

@@ -15,6 +15,7 @@ from sim.absent_packages import explain
 from sim.evidence import CallbackError
 from sim.ros.bundled_programs import PROGRAMS
 from sim.ros.packages import PackageNotFound, packages
+from tests.sim.ros.test_packages import VALID
 
 SCIPY = (
     "`scipy` is a Python package that is not installed here: `%pip install scipy` in a cell installs it. "
@@ -45,6 +46,11 @@ def missing_module(name: str) -> CallbackError:
         "tf": "`tf` is a package of ROS 1. ROS 2 has tf2_ros, and tf_transformations for tf.transformations.",
         "launch_testing": "`launch_testing` (tests of launch files) is a ROS package that the course does not "
         "include. launch_pytest is here and does the same for pytest.",
+        "moveit_commander": "`moveit_commander` is a package of ROS 1. ROS 2 has moveit, a package of MoveIt 2 that "
+        "the course does not include.",
+        "qwertz_lib": "Python can't find a module `qwertz_lib`. Is it a file of yours? It has to be in the folder of "
+        "the program, or in a package that is built and sourced. Is it a ROS package? The course does not include "
+        "it: its source has to be in a workspace's src. Is it on PyPI? `%pip install` in a cell installs it.",
         "std_msg": "Python can't find a module `std_msg`: check its spelling. Message packages end in `_msgs` and "
         "`.msg`, as in `from std_msgs.msg import String`.",
     }.items(),
@@ -98,9 +104,7 @@ def test_ros2_run_explains_a_package():
 def test_interfaces_that_were_not_built_or_not_sourced_are_named(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ws/src/my_interfaces").mkdir(parents=True)
-    (tmp_path / "ws/src/my_interfaces/package.xml").write_text(
-        "<package><name>my_interfaces</name></package>"
-    )
+    (tmp_path / "ws/src/my_interfaces/package.xml").write_text(VALID.format("my_interfaces"))
     error = missing_module("my_interfaces")
     assert advice(error) == "Package `my_interfaces`: it is in ws/src but not built: run colcon build in ws."
     (tmp_path / "ws/install").mkdir()
@@ -138,3 +142,24 @@ def test_ros2_launch_explains_a_package(tmp_path):
     ros2 = Path(sys.executable).with_name("ros2")
     done = subprocess.run([ros2, "launch", path], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr.splitlines()[-1]) == (1, NAV2)
+
+
+@pytest.mark.parametrize(
+    ("inside", "hint"),
+    {
+        '<node pkg="demo_nodes_py" exec="talkr"/>': "Write `talker` in the place of `talkr`.",
+        '<node pkg="rqt_graph" exec="rqt_graph"/>': "The course has no such program. Its error says what to use in "
+        "its place.",
+        '<let name="x"/>': "`let` needs `value`, on the line of the launch file that the error names.",
+        "<log message=\"$(command 'xacro a')\"/>": SCIPY.replace("scipy", "xacro"),
+        '<include file="$(dirname)/ohter.launch.xml"/>': "There is no file `FOLDER/ohter.launch.xml`. Did you mean "
+        "'other.launch.xml'?",
+        '<include file="/share/a/launch/b.launch.py"/>': "There is no file `/share/a/launch/b.launch.py`. A launch "
+        "file of a package has to be installed: its setup.py or CMakeLists.txt names it.",
+    }.items(),
+)
+def test_a_mistake_in_a_launch_file_is_explained(inside, hint, tmp_path):
+    for name, content in {"it": inside, "other": ""}.items():
+        (tmp_path / f"{name}.launch.xml").write_text(f"<launch>{content}</launch>")
+    found = find_fault(run(tmp_path / "it.launch.xml", seconds=1, quiet=True))
+    assert found.hint == hint.replace("FOLDER", str(tmp_path))

@@ -138,9 +138,18 @@ def test_a_missing_package_is_explained(workspace, tmp_path, monkeypatch):
     assert reason("my_pkg") == f"Package 'my_pkg' not found: {here}"
 
 
+VALID = """\
+<package format="3">
+  <name>{}</name><version>0.0.0</version><description>d</description>
+  <maintainer email="me@example.com">me</maintainer><license>MIT</license>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+
+
 def test_a_package_that_was_not_built_is_found_by_its_package_xml(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for name, text in {"fresh": "<package><name>fresh</name></package>", "broken": "<package>"}.items():
+    for name, text in {"fresh": VALID.format("fresh"), "broken": "<package>"}.items():
         (tmp_path / "ws/src" / name).mkdir(parents=True)
         (tmp_path / "ws/src" / name / "package.xml").write_text(text)
     what = "it is in ws/src but not built: run colcon build in ws."
@@ -236,4 +245,27 @@ def test_a_package_xml_that_cannot_be_read_is_named_even_if_colcon_built_the_pac
     assert reason("broken") == (
         "Package 'broken' not found: ws/src/broken/package.xml is not valid: mismatched tag: line 4, column "
         "2. Correct it, and build again."
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("<name>mine</name>", "", 'The manifest must contain exactly one "name" tag'),
+        ("0.0.0", "1.0", 'Package version "1.0" does not follow version conventions'),
+        (' email="me@example.com"', "", 'The "maintainer" tag must have the attribute "email"'),
+        ("ament_python", "ament_pyton", "its <export> needs the build_type ament_python or ament_cmake"),
+        ("<build_type>ament_python</build_type>", "", "its <export> needs the build_type ament_python or "
+         "ament_cmake"),
+    ],
+)  # fmt: skip
+def test_a_package_xml_that_colcon_does_not_accept_is_named(old, new, why, tmp_path, monkeypatch):
+    (tmp_path / "src/mine").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "src/mine/package.xml"
+    file.write_text(VALID.format("mine"))
+    assert reason("mine") == "Package 'mine' not found: it is in src but not built: run colcon build here."
+    file.write_text(VALID.format("mine").replace(old, new))
+    assert reason("mine") == (
+        f"Package 'mine' not found: src/mine/package.xml is not valid: {why}. Correct it, and build again."
     )

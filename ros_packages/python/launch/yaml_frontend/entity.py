@@ -36,6 +36,27 @@ def _to_number(kind: type) -> Callable[[str, str, str], Any]:
 
 # What an attribute of XML is converted with, where a type is wanted.
 CONVERSIONS = {bool: _to_bool, int: _to_number(int), float: _to_number(float)}
+COMPONENTS = "loads C++ components, which are not built here: start each node with a node entity."
+ELSEWHERE = {  # entities of ROS 1, and of ROS 2 for C++, with what to write
+    **dict.fromkeys(("node_container", "load_composable_node", "composable_node"), COMPONENTS),
+    "param": "belongs in a node in ROS 2; set_parameter sets one for all nodes of its group.",
+    "remap": "belongs in a node in ROS 2; set_remap is for all nodes of its group.",
+    "rosparam": 'is of ROS 1: ROS 2 has <param from="FILE"/> in a node.',
+    "env": "belongs in a node or an executable; set_env is for all processes of its group.",
+    "machine": "is of ROS 1: start a launch file on each machine.",
+    "test": "is of ROS 1: launch_pytest tests launch files.",
+}
+KEYS_OF_ROS1 = {
+    ("node", "type"): "exec",
+    ("node", "required"): 'on_exit="shutdown"',
+    ("node", "machine"): "a launch file on each machine",
+    ("group", "ns"): "a push_ros_namespace entity in the group",
+    ("node", "ns"): "namespace",
+    ("include", "ns"): "a group with a push_ros_namespace entity around it",
+    ("arg", "value"): "let for a fixed value, or default for one that can be changed",
+    ("arg", "doc"): "description",
+    ("param", "command"): "value=\"$(command '...')\"",
+}
 ACTIONS: dict[str, Callable[[Entity], Action]] = {}
 
 
@@ -50,6 +71,7 @@ class Entity:
         if not isinstance(self.content, dict) or key not in self.content:
             if optional:
                 return None
+            self._refuse_old_keys()
             raise AttributeError(f"Can not find attribute '{key}' in Entity '{self.type_name}'")
         self.keys_read.add(key)
         found = self.content[key]
@@ -88,7 +110,15 @@ class Entity:
         """Raise ValueError for keys that were not read."""
         left = set(self.content) - self.keys_read if isinstance(self.content, dict) else set()
         if left:
+            self._refuse_old_keys()
             raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {left}")
+
+    def _refuse_old_keys(self) -> None:
+        """Raise ValueError for a key that ROS 1 has here."""
+        for key in self.content if isinstance(self.content, dict) else ():
+            if (self.type_name, key) in KEYS_OF_ROS1:
+                wanted = KEYS_OF_ROS1[self.type_name, key]
+                raise ValueError(f"`{key}` of `{self.type_name}` is of ROS 1: ROS 2 has {wanted}.")
 
     def condition(self) -> dict[str, Any]:
         """The argument `condition` of an action, from `if` or `unless`; empty without a condition."""
@@ -117,6 +147,8 @@ def _create_action(child: Any) -> Action:
         raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
     ((type_name, content),) = child.items()
     if type_name not in ACTIONS:
+        if type_name in ELSEWHERE:
+            raise RuntimeError(f"`{type_name}` {ELSEWHERE[type_name]}")
         known = ", ".join(sorted(ACTIONS))
         raise RuntimeError(f"Unrecognized entity of the type: {type_name}. There are {known}.")
     entity = Entity(type_name, {} if content is None else content)

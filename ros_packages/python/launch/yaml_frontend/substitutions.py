@@ -38,6 +38,7 @@ SUBSTITUTIONS: dict[str, tuple[int, int, Callable[..., Substitution]]] = {
     "any": (0, MANY, AnySubstitution),
     "all": (0, MANY, AllSubstitution),
 }
+OF_ROS1 = {"find": "find-pkg-share", "arg": "var", "optenv": "env"}
 NAME = re.compile(r"\$\(([A-Za-z][\w-]*)")
 
 
@@ -72,6 +73,8 @@ def _parse_one(text: str, at: int) -> tuple[Substitution, int]:
         raise ValueError(f"{text!r} can't be read from {text[at:]!r} on.")
     name, at = match[1], match.end()
     if name not in SUBSTITUTIONS:
+        if name in OF_ROS1:
+            raise RuntimeError(f"$({name} ...) is of ROS 1: ROS 2 has $({OF_ROS1[name]} ...).")
         raise RuntimeError(f"Unknown substitution: {name}. There are {', '.join(sorted(SUBSTITUTIONS))}.")
     arguments = []
     while text.startswith(" ", at):
