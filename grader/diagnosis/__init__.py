@@ -66,8 +66,9 @@ GUESSES = (
     radio.lost_on_the_network,
     radio.late_on_the_network,
 )
-# In place of a diagnosis, where no missed check says that the lost message or the name mattered.
+# In place of a diagnosis, where no missed check says that the difference mattered.
 STRICTER = {
+    activity.slow_callback: activity.certainly_slow_callback,
     connections.published_too_early: connections.only_message_too_early,
     names.topic_name_typo: names.certain_topic_typo,
 }

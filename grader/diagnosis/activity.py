@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import sys
+
 from grader.diagnosis.parameters import OF_EVERY_NODE
 from sim.evidence import CALLS_PUBLISH, INFRASTRUCTURE_TOPICS, SPUN, WATCHES, CallbackRun, Recording
 from sim.notebook.run_programs import run_programs
 
 
-def slow_callback(recording: Recording) -> str:
-    """A timer that fires less often than it should because a callback of its node holds everything up."""
+def slow_callback(recording: Recording, canceled_early: int = 1) -> str:
+    """A timer that fires less often than it should because a callback of its node holds everything up.
+
+    canceled_early: up to so many times a timer fires that is canceled on purpose.
+    """
     for timer in recording.graph.timers:
         if timer.period <= 0 or timer.node in recording.course_nodes:
             continue
         of_node = [run for run in recording.callbacks if run.node == timer.node]
         fires = [run for run in of_node if run.kind == "timer" and run.callback == timer.callback]
         fired, due = len(fires), int(recording.ended.stamp / timer.period + 1e-6)
-        if _was_canceled(fires, of_node, timer.period, recording.ended.stamp):
+        if fired <= canceled_early and _was_canceled(fires, of_node, timer.period, recording.ended.stamp):
             continue
         slowest = max(of_node, key=lambda run: run.duration, default=None)
         if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
@@ -26,6 +31,11 @@ def slow_callback(recording: Recording) -> str:
                 "the timer do the waiting."
             )
     return ""
+
+
+def certainly_slow_callback(recording: Recording) -> str:
+    """The same, without timers that were canceled at any time, and were due no more."""
+    return slow_callback(recording, sys.maxsize)
 
 
 def _was_canceled(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
