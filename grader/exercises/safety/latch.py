@@ -8,7 +8,7 @@ from grader.checks.no_data import no_data
 from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
 from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
 from grader.exercise import Exercise, Scenario
-from grader.responses import EDGE, Window, from_course, requests_from_course, require_standing, same
+from grader.responses import Window, from_course, requests_from_course, require_standing, same
 from sim.evidence import Call, Recording, Seconds
 from sim.network import Network
 
@@ -143,8 +143,8 @@ def _pauses(stamps: list[Seconds]) -> list[tuple[Seconds, Seconds]]:
 
 
 def _is_free(stamp: Seconds, when: Times) -> bool:
-    """Whether nothing stops the robot at that moment, for certain."""
-    return 0.5 < stamp < when.press - EDGE or when.resumed <= stamp < when.cut + 0.3
+    """Whether nothing stops the robot at that moment, for certain; a press may overtake a command."""
+    return 0.5 < stamp < when.press - SOON or when.resumed <= stamp < when.cut + 0.3
 
 
 def _granted(run: Recording) -> Call:
