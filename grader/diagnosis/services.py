@@ -127,7 +127,7 @@ def _sets_a_field(recording: Recording, service: str) -> bool:
         for node in student_nodes(recording)
         if node.name in servers
         for callback, row in node.registered.items()
-        if row.kind == "service"
+        if row.kind == "service" and row.topic and service.endswith(f"/{row.topic.strip('/')}")
         for method in node.parts(callback)
     )
 

@@ -107,7 +107,7 @@ def _registered(owner: str, methods: Methods) -> dict[str, Registration]:
                 continue
             named = {keyword.arg: keyword.value for keyword in call.keywords}
             topic = named.get("topic", call.args[1] if len(call.args) > 1 else None)
-            known = kind == "subscription" and isinstance(topic, ast.Constant)
+            known = kind != "timer" and isinstance(topic, ast.Constant)
             group = ast.unparse(named["callback_group"]) if "callback_group" in named else ""
             for value in (*call.args, *named.values()):
                 if own_attribute(value) in methods:

@@ -125,3 +125,13 @@ class AwaitsInItsGroup(Node):
 def main_of_a_later_distribution(args=None):
     with rclpy.init(args=args):
         rclpy.spin(Adder())
+
+
+class SetsTheFieldsOfOneService(NeverSetsTheSum):
+    def __init__(self):
+        super().__init__()
+        self.create_service(AddTwoInts, "add_again", self.add_again)
+
+    def add_again(self, request, response):
+        response.sum = request.a + request.b
+        return response

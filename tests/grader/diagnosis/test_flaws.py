@@ -108,3 +108,8 @@ def test_every_flaw_is_earned_by_some_students():
     recordings.append(run(after_interrupt.shuts_down_again, seconds=1, quiet=True))
     assert [flaw.__name__ for flaw in FLAWS if not any(map(flaw, recordings))] == []
     assert set(GUESSES) <= set(DIAGNOSES)
+
+
+def test_an_empty_answer_of_one_service_is_reported_beside_another_that_is_right():
+    recording = run(service_misfits.SetsTheFieldsOfOneService, services.done_callback, seconds=3, quiet=True)
+    assert explain(recording).startswith("Every answer of /add is empty: ")
