@@ -22,7 +22,9 @@ def why_unavailable(package: str) -> str:
                 error = error or why_invalid(file)
                 return f"{os.path.relpath(file)} is not valid: {error}. Correct it, and build again."
         if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
-            return f"it is built but not sourced: source('{into}install/setup.bash') does that."
+            script = f"{into}install/setup.bash"
+            both = f"`source {script}` in a terminal, `source('{script}')` in a notebook"
+            return f"it is built but not sourced: {both}."
         if any(name == package for name, _ in descriptions.values()):
             return f"it is in {into}src but not built: run colcon build {at}."
     return ""

@@ -113,7 +113,8 @@ def test_interfaces_that_were_not_built_or_not_sourced_are_named(tmp_path, monke
     index.mkdir(parents=True)
     (index / "my_interfaces").write_text("")
     assert advice(error) == (
-        "Package `my_interfaces`: it is built but not sourced: source('ws/install/setup.bash') does that."
+        "Package `my_interfaces`: it is built but not sourced: `source ws/install/setup.bash` in a terminal, "
+        "`source('ws/install/setup.bash')` in a notebook."
     )
 
 

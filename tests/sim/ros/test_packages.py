@@ -134,7 +134,9 @@ def test_a_missing_package_is_explained(workspace, tmp_path, monkeypatch):
     monkeypatch.chdir(workspace.parent)
     monkeypatch.setenv("AMENT_PREFIX_PATH", sys.prefix)
     at = workspace.name
-    here = f"it is built but not sourced: source('{at}/install/setup.bash') does that."
+    script = f"{at}/install/setup.bash"
+    both = f"`source {script}` in a terminal, `source('{script}')` in a notebook"
+    here = f"it is built but not sourced: {both}."
     assert reason("my_pkg") == f"Package 'my_pkg' not found: {here}"
 
 
