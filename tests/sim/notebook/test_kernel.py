@@ -70,7 +70,9 @@ def test_an_import_of_what_is_not_here_is_explained_before_anything_is_imported(
     assert kernel.run("import rospy", "use").strip().splitlines()[-1] == (
         "`rospy` is a package of ROS 1. ROS 2 has rclpy."
     )
-    assert "No module named 'zzz'" in kernel.run("import zzz", "use").strip().splitlines()[-1]
+    *_, error, hint = kernel.run("import zzz", "use").strip().splitlines()
+    assert error.endswith(": No module named 'zzz'")
+    assert hint.startswith("Python can't find a module `zzz`. Is it a file of yours?")
 
 
 def test_a_cell_that_failed_is_not_run_in_its_older_version(kernel):
