@@ -19,12 +19,18 @@ from grader.diagnosis.ros_situations import (
 from sim.evidence import CallbackError, Recording
 from sim.ros.messages.codec import message_class
 
-_USES_OF_NONE = {  # an error's text, and how its line uses the attribute that is None
-    r"'NoneType' object is not subscriptable": r"\bself\.(\w+)\[",
+# An error's text, and how its line uses the attribute that is None; `{0}` is the operator in the text.
+_USES_OF_NONE = {
+    r"'NoneType' object is not subscriptable": r"\bself\.(\w+)\[(?!.*\]\[)",
     r"non-iterable NoneType|NoneType' object is not iterable|must be an iterable, not NoneType": (
         r"(?:\bin |\*|= |\()self\.(\w+)\b(?![(\[.])"
     ),
-    r"unsupported operand .*'NoneType'|not supported between .*'NoneType'": r"\bself\.(\w+)\b(?![(\[.])",
+    r"for (\S+): 'NoneType' and|'(\S+)' not supported between instances of 'NoneType'": (
+        r"\bself\.(\w+) *{0}(?![=*/<>])"
+    ),
+    r"for (\S+): '\w+' and 'NoneType'|'(\S+)' not supported between instances of '\w+' and 'NoneType'": (
+        r"(?<![=*/<>]){0} *self\.(\w+)\b(?![(\[.])"
+    ),
 }
 _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 
@@ -141,8 +147,12 @@ def _no_value(error: CallbackError) -> str:
 
 def _not_set_yet(error: CallbackError) -> str:
     """An attribute that a callback sets, used before that."""
-    uses = next((uses for text, uses in _USES_OF_NONE.items() if re.search(text, error.text)), None)
-    names = set(re.findall(uses, _last_line(error))) if uses and error.type == "TypeError" else set()
+    cases = ((re.search(text, error.text), use) for text, use in _USES_OF_NONE.items())
+    found, use = next(((found, use) for found, use in cases if found), (None, ""))
+    if found is None or error.type != "TypeError":
+        return ""
+    operator = next(filter(None, found.groups()), "")
+    names = set(re.findall(use.format(re.escape(operator)), _last_line(error)))
     if len(names) != 1:
         return ""
     name = names.pop()

@@ -18,9 +18,9 @@ def why_unavailable(package: str) -> str:
         at, into = ("here", "") if shown == "." else (f"in {shown}", f"{shown}/")
         descriptions = {file: read_name(file) for file in _descriptions(folder / "src")}
         for file, (_, error) in descriptions.items():
-            if file.parent.name == package and (error or why_invalid(file)):  # built as plain Python
-                error = error or why_invalid(file)
-                return f"{os.path.relpath(file)} is not valid: {error}. Correct it, and build again."
+            reason = (error or why_invalid(file)) if file.parent.name == package else ""
+            if reason:  # colcon builds it as plain Python
+                return f"{os.path.relpath(file)} is not valid: {reason}. Correct it, and build again."
         if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
             script = f"{into}install/setup.bash"
             both = f"`source {script}` in a terminal, `source('{script}')` in a notebook"

@@ -304,6 +304,23 @@ class ComparesIt(NotLocalized):
         self.say(self.pose > 1.0)
 
 
+class CalculatesFromIt(NotLocalized):
+    def use(self):
+        self.say(1.0 - self.pose)
+
+
+class UsesAPartThatIsNone(NotLocalized):
+    def use(self):
+        self.pose = {"x": None}
+        self.say(self.pose["x"][0])
+
+
+class CalculatesWithAnArgument(NotLocalized):
+    def use(self, gain=None):
+        self.pose = 2.0
+        self.say(self.pose * gain)
+
+
 class UsesTwo(NotLocalized):
     def use(self):
         self.say(self.pose - self.goal)
@@ -318,7 +335,7 @@ class UnpacksWhatAMethodReturns(NotLocalized):
         pass
 
 
-@pytest.mark.parametrize("node", [NeedsAPart, UnpacksIt, GoesThroughIt, CalculatesWithIt, ComparesIt])
+@pytest.mark.parametrize("node", [NeedsAPart, UnpacksIt, GoesThroughIt, CalculatesWithIt, CalculatesFromIt, ComparesIt])
 def test_an_attribute_that_no_callback_has_set_yet_is_named(node):
     assert find_fault(record(node)).hint == (
         "`self.pose` is None there. If a callback sets it, that callback may not have been called yet: test first, "
@@ -326,6 +343,10 @@ def test_an_attribute_that_no_callback_has_set_yet_is_named(node):
     )
 
 
-@pytest.mark.parametrize("node", [UsesTwo, UnpacksWhatAMethodReturns])
-def test_where_it_could_be_another_value_no_attribute_is_named(node):
+@pytest.mark.parametrize("node", [UsesAPartThatIsNone, CalculatesWithAnArgument, UnpacksWhatAMethodReturns])
+def test_where_another_value_is_none_no_attribute_is_named(node):
     assert "self.pose" not in find_fault(record(node)).hint
+
+
+def test_of_two_attributes_that_are_none_the_left_one_is_named():
+    assert find_fault(record(UsesTwo)).hint.startswith("`self.pose` is None there.")
