@@ -131,6 +131,8 @@ class Script:
         jobs = [self._job(AMPLE - 30.0 * number) for number in range(3)]
         urgent, other = jobs[2], jobs[0]
         self.draw.shuffle(jobs)
+        jobs.remove(urgent)
+        jobs.insert(1, urgent)  # who takes the first to come, or the last, is wrong in each run
         reason = "three orders came at once, and this one is the most urgent"
         self._add("keeps", reason, "fetch", urgent.pickup, *((job, Order.WAITING) for job in jobs))
         reason = f"it picked up order {other.id} on its way"

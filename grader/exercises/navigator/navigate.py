@@ -96,6 +96,8 @@ ARRIVES: dict[str, Callable[..., Any]] = {
         lambda run, goal, left: _succeeded(goal, left) and left < 1.0,
     "The goal is reported as succeeded, but the robot isn't there. The goal is in the frame map: compare it "
     "with the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
+    "The goal was aborted before there was a plan: wait in the loop until the pose and the map are there.":
+        lambda run, goal, left: goal.status == "aborted" and not _plans(run),
     "No plan was published. In the loop, when there is no path yet or it is blocked: self.plan(goal). And "
     f"while a goal is executed the node has to receive /tf and /map: {THREADS}.":
         lambda run, goal, left: not _plans(run),

@@ -144,6 +144,17 @@ class OneClassForEachState(Node):
         return "fetch", self.known[self.target].pickup
 
 
+class TakesTheFirstToCome(OneClassForEachState):
+    """Of the orders that wait, the one that came first, whatever its deadline."""
+
+    def next(self):
+        orders = self.known.values()
+        waiting = [one.id for one in orders if one.status == Order.WAITING and self.left(one) > 0]
+        if waiting and self.target not in waiting:
+            self.target = waiting[0]
+        return super().next()
+
+
 class ReceivesTheNewOnly(Decision):
     """Subscribes as to any other topic."""
 

@@ -358,6 +358,14 @@ class NeedsThePoseAtOnce(Navigator):
         return super().execute(goal_handle)
 
 
+class GivesUpWithoutAPose(Navigator):
+    def execute(self, goal_handle):
+        if self.pose is None:
+            goal_handle.abort()
+            return NavigateToPose.Result()
+        return super().execute(goal_handle)
+
+
 class ForgetsToSucceed(Navigator):
     def arrived(self, goal_handle):
         self.drive(0.0, 0.0)
@@ -484,6 +492,7 @@ ignores_the_frame = main_of(IgnoresTheFrame)
 without_inflation = main_of(WithoutInflation)
 goal_in_odom = main_of(GoalInOdom)
 needs_the_pose_at_once = main_of(NeedsThePoseAtOnce)
+gives_up_without_a_pose = main_of(GivesUpWithoutAPose)
 forgets_to_succeed = main_of(ForgetsToSucceed)
 returns_nothing = main_of(ReturnsNothing)
 succeeds_at_once = main_of(SucceedsAtOnce)
