@@ -27,7 +27,7 @@ from tests.exercises.score_tables import (
     shown,
     students,
 )
-from tests.exercises.seeds import fallen_short, right_nodes
+from tests.exercises.seeds import SOLUTION, fallen_short, right_nodes
 from tests.students.teams import programs_of
 
 PRIVATE = 8, 40  # other seeds, at least and at most, as students get them; tests.exercises.seeds tries more
@@ -164,6 +164,7 @@ class Assignment:
         (least, most), judge = PRIVATE, self.judge(exercise)
         number = least if judge.package else min(max(int(PRIVATE_SECONDS / simulated(judge)), least), most)
         assert list(fallen_short(self.topic(), exercise, range(number))) == []
+        assert list(fallen_short(self.topic(), exercise, range(number), SOLUTION)) == []
 
     @pytest.mark.soak
     def test_right_nodes_earn_everything_in_every_order(self, exercise):

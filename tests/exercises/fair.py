@@ -8,56 +8,19 @@ happens at the same time; where none of them misses anything it is fair.
 from __future__ import annotations
 
 import argparse
-import ast
 import importlib
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from typing import Any
-
-import nbformat
 
 from grader import Exercise
 from grader.checks.verdicts import judge
 from grader.programs import LocalPrograms
 from grader.scenario import Scenario
-from tests.exercises.score_tables import ROOT, students
+from tests.exercises.reference import solution
+from tests.exercises.score_tables import students
 from tests.exercises.seeds import right_nodes
 from tests.students.teams import programs_of
-
-
-def solution(topic: str, name: str) -> tuple[Any, ...]:
-    """What the notebook in solutions/ gives to an exercise, as `grade` takes it."""
-    (path,) = ROOT.glob(f"solutions/*_{topic}/*.ipynb")
-    space: dict[str, Any] = {}
-    for cell in nbformat.read(path, 4).cells:
-        for statement in _statements(cell):
-            if graded := _graded(statement, name):
-                return tuple(eval(f"({', '.join([*map(ast.unparse, graded.args), ''])})", space))
-            if not isinstance(statement, ast.Expr):
-                with suppress(NameError):  # of a recording: nothing is run here
-                    exec(ast.unparse(statement), space)
-    raise ValueError(f"{path} grades no {name}")
-
-
-def _statements(cell: Any) -> list[ast.stmt]:
-    """What a cell executes, without its runs; nothing of a cell with commands of IPython."""
-    with suppress(SyntaxError):
-        statements = ast.parse(cell.source if cell.cell_type == "code" else "").body
-        return [statement for statement in statements if not _runs(statement)]
-    return []
-
-
-def _graded(statement: ast.stmt, name: str) -> ast.Call | None:
-    """The call of `grade` of the exercise of this name, if the statement is one."""
-    call = getattr(statement, "value", None)
-    words = ast.unparse(call.func).split(".")[-2:] if isinstance(call, ast.Call) else []
-    return call if words == [name, "grade"] else None
-
-
-def _runs(statement: ast.stmt) -> bool:
-    called = (part.func for part in ast.walk(statement) if isinstance(part, ast.Call))
-    return any(getattr(function, "id", "") in ("run", "play") for function in called)
 
 
 def is_fair(

@@ -9,8 +9,12 @@ from collections.abc import Iterator
 
 from grader import Exercise
 from grader.programs import LocalPrograms
+from tests.exercises.builds import kept_builds
+from tests.exercises.reference import solution
 from tests.exercises.score_tables import graded_exercises, page, shown, students
 from tests.students.teams import programs_of
+
+SOLUTION = "solution"  # the node of the notebook in solutions/
 
 
 def right_nodes(topic: str, name: str) -> list[str]:
@@ -19,12 +23,17 @@ def right_nodes(topic: str, name: str) -> list[str]:
     return [node for node, text in page(topic, name).items() if text == f"{node}: {points:g}"]
 
 
-def fallen_short(topic: str, name: str, numbers: range) -> Iterator[str]:
-    """What a right node misses with these private seeds; they take turns, and most miss nothing."""
-    exercise, nodes, right = exercise_of(topic, name), students(topic, name), right_nodes(topic, name)
+def fallen_short(topic: str, name: str, numbers: range, node: str = "") -> Iterator[str]:
+    """What a right node misses with these private seeds; most miss nothing.
+
+    node: the one that is judged, or SOLUTION; if it is empty, the right nodes take turns.
+    """
+    exercise, nodes = exercise_of(topic, name), students(topic, name)
+    right = [node] if node else right_nodes(topic, name)
+    programs = [solution(topic, name) if one == SOLUTION else programs_of(nodes[one]) for one in right]
     for number in numbers:
-        node = right[number % len(right)]
-        score = exercise.judge(LocalPrograms(programs_of(nodes[node])), f"secret {number}")
+        turn = number % len(right)
+        node, score = right[turn], exercise.judge(LocalPrograms(programs[turn]), f"secret {number}")
         if shown(node, score) != f"{node}: {exercise.points:g}":
             yield f"secret {number}: {shown(node, score)}"
 
@@ -41,14 +50,16 @@ def main(words: list[str]) -> int:
     parser.add_argument("exercises", nargs="*", help="their names; all of them where none is given")
     parser.add_argument("--count", type=int, default=200, help="how many seeds each")
     parser.add_argument("--first", type=int, default=0, help="the first one's number")
+    parser.add_argument("--node", default="", help=f"only this node, or {SOLUTION!r}: that of the notebook")
     asked = parser.parse_args(words)
     topic = asked.folder.split("_", 1)[1]
     failed = False
-    for name in asked.exercises or graded_exercises(asked.folder):
-        numbers = range(asked.first, asked.first + asked.count)
-        short = list(fallen_short(topic, name, numbers))
-        print(f"{name}: {asked.count - len(short)} of {asked.count} earn everything", *short, sep="\n")
-        failed |= bool(short)
+    numbers = range(asked.first, asked.first + asked.count)
+    with kept_builds():
+        for name in asked.exercises or graded_exercises(asked.folder):
+            short = list(fallen_short(topic, name, numbers, asked.node))
+            print(f"{name}: {asked.count - len(short)} of {asked.count} earn everything", *short, sep="\n")
+            failed |= bool(short)
     return int(failed)
 
 

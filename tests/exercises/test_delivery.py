@@ -8,7 +8,7 @@ from rclpy.node import Node
 from grader.exercises import delivery
 from grader.programs import LocalPrograms
 from tests.exercises.assignment import Assignment
-from tests.exercises.fair import solution
+from tests.exercises.reference import solution
 from tests.exercises.score_tables import ROOT
 from tests.exercises.seeds import fallen_short
 

@@ -1,0 +1,84 @@
+"""The reference solutions: what the notebooks in solutions/ give to the exercises."""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import functools
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+from tests.exercises.score_tables import ROOT
+
+WRITES = "%%writefile "
+NOT_DONE = {"run", "play", "packages.see"}  # calls that run programs: nothing is run here
+
+
+@functools.cache
+def solution(topic: str, name: str) -> tuple[Any, ...]:
+    """What the notebook gives to an exercise, as `grade` takes it.
+
+    A workspace is the path of one in a folder that is there until the process ends.
+    """
+    (path,) = ROOT.glob(f"solutions/*_{topic}/*.ipynb")
+    space: dict[str, Any] = {}
+    with _in_a_folder():
+        for cell in nbformat.read(path, 4).cells:
+            _write(cell)
+            for statement in _statements(cell):
+                if graded := _graded(statement, name):
+                    given = eval(f"({', '.join([*map(ast.unparse, graded.args), ''])})", space)
+                    return tuple(str(Path(one).resolve()) if isinstance(one, str) else one for one in given)
+                if not isinstance(statement, ast.Expr) or "write" in ast.unparse(statement):
+                    with contextlib.suppress(NameError):  # of a recording
+                        exec(ast.unparse(statement), space)
+    raise ValueError(f"{path} grades no {name}")
+
+
+@functools.cache
+def _folders() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory(prefix="solutions-")
+
+
+@contextlib.contextmanager
+def _in_a_folder() -> Iterator[None]:
+    folder = tempfile.mkdtemp(dir=_folders().name)
+    sys.path.insert(0, folder)  # a notebook imports the modules that it writes
+    try:
+        with contextlib.chdir(folder):
+            yield
+    finally:
+        sys.path.remove(folder)
+
+
+def _write(cell: Any) -> None:
+    first, _, rest = cell.source.partition("\n")
+    if first.startswith(WRITES):
+        path = Path(first.removeprefix(WRITES).strip())
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(rest + "\n", encoding="utf-8")
+
+
+def _statements(cell: Any) -> list[ast.stmt]:
+    """What a cell executes, without its runs; nothing of a cell with commands of IPython."""
+    with contextlib.suppress(SyntaxError):
+        statements = ast.parse(cell.source if cell.cell_type == "code" else "").body
+        return [statement for statement in statements if not _runs(statement)]
+    return []
+
+
+def _graded(statement: ast.stmt, name: str) -> ast.Call | None:
+    """The call of `grade` of the exercise of this name, if the statement is one."""
+    call = getattr(statement, "value", None)
+    words = ast.unparse(call.func).split(".")[-2:] if isinstance(call, ast.Call) else []
+    return call if words == [name, "grade"] else None
+
+
+def _runs(statement: ast.stmt) -> bool:
+    called = (part.func for part in ast.walk(statement) if isinstance(part, ast.Call))
+    return any(ast.unparse(function) in NOT_DONE for function in called)
