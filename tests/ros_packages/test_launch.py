@@ -519,7 +519,7 @@ def test_yaml_says_the_same(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("- nod: {}", "Unrecognized entity of the type: nod. There are arg, "),
+        ("- nod: {}", "Unrecognized entity of the type: nod. There are append_env, arg, "),
         ("- node: {pkg: a}", "Can not find attribute 'exec' in Entity 'node'"),
         ("- log: {message: a, mesage: b}", "Unexpected key(s) found in `log`: {'mesage'}"),
         ("- log: {message: a}\n  arg: {name: b}", "Subentities must be a dictionary with only one key"),

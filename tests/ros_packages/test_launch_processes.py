@@ -10,6 +10,7 @@ from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.actions import (
     EmitEvent,
     ExecuteProcess,
+    GroupAction,
     LogInfo,
     RegisterEventHandler,
     SetEnvironmentVariable,
@@ -22,7 +23,7 @@ from launch.events.process import ShutdownProcess, SignalProcess
 from launch.logging import launch_config
 from launch.processes import SystemProcessStarter
 from launch.utilities import text_of
-from launch_ros.actions import Node, SetParameter
+from launch_ros.actions import Node, SetParameter, SetParametersFromFile
 from launch_ros.substitutions import ExecutableInPackage
 
 from tests.patience import PATIENCE
@@ -251,6 +252,22 @@ def test_a_node_is_a_program_with_ros_own_words(launched):
     before, file, rest = re.fullmatch(r"(.*) --params-file (\S+) (.*)", lines[1]).groups()
     assert (before, rest) == (begin, "-r x:=yz")
     assert Path(file).read_text() == "/s/n:\n  ros__parameters:\n    a: 1\n"
+
+
+def test_parameters_of_a_file_are_for_all_later_nodes_of_the_group(launched, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("all.yaml").write_text("/**: {ros__parameters: {a: 1}}")
+    node = Node(executable="echo", name="n", parameters=["/no/such.yaml"], output="screen")
+    files = [SetParametersFromFile(name) for name in ("all.yaml", "none.yaml")]
+    group = GroupAction([files[0], SetParameter("b", 2), files[1], node])
+    _, lines = launched(group, Node(executable="echo", name="m", output="screen"))
+    warning = "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file:"
+    assert [line for line in lines if not line.startswith("[INFO]")] == [
+        f"{warning} LOGS/none.yaml",
+        f"{warning} /no/such.yaml",
+        "[echo-1] --ros-args -r __node:=n --params-file LOGS/all.yaml -p b:=2",
+        "[echo-2] --ros-args -r __node:=m",
+    ]
 
 
 def test_what_is_odd_about_a_node_is_said(launched):

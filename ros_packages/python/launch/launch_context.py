@@ -139,4 +139,8 @@ class LaunchContext:
         self.environment = self._environment_stack.pop()
 
     def _reset_scope(self) -> None:
-        self.launch_configurations, self.environment = {}, dict(self._initial_environment)
+        self.launch_configurations = {}
+        self._reset_environment()
+
+    def _reset_environment(self) -> None:
+        self.environment = dict(self._initial_environment)

@@ -5,20 +5,17 @@ from typing import NoReturn
 
 LEFT_OUT = {
     "launch.actions": (
-        "AppendEnvironmentVariable ExecuteLocal OpaqueCoroutine PopEnvironment PopLaunchConfigurations "
-        "PushEnvironment PushLaunchConfigurations ResetEnvironment ResetLaunchConfigurations "
-        "UnregisterEventHandler UnsetEnvironmentVariable UnsetLaunchConfiguration"
+        "ExecuteLocal OpaqueCoroutine PopEnvironment PopLaunchConfigurations PushEnvironment "
+        "PushLaunchConfigurations UnregisterEventHandler"
     ),
-    "launch.conditions": "LaunchConfigurationEquals LaunchConfigurationNotEquals",
     "launch.event_handlers": "OnIncludeLaunchDescription event_named",
     "launch.launch_description_sources": (
         "FrontendLaunchDescriptionSource InvalidFrontendLaunchFileError "
         "get_launch_description_from_frontend_launch_file"
     ),
-    "launch.substitutions": ("AnonName FileContent IfElseSubstitution LaunchLogDir ThisLaunchFile"),
+    "launch.substitutions": "AnonName LaunchLogDir",
     "launch_ros.actions": (
-        "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetParametersFromFile "
-        "SetROSLogDir SetUseSimTime"
+        "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetROSLogDir SetUseSimTime"
     ),
     "launch_ros.descriptions": "ComposableNode Parameter",
     "launch_ros.substitutions": "Parameter",

@@ -10,7 +10,14 @@ from launch.yaml_frontend.actions import parse_command, process_options
 from launch.yaml_frontend.entity import Entity, expose_action
 from launch.yaml_frontend.xml_file import XmlText
 
-from launch_ros.actions import LifecycleNode, Node, PushRosNamespace, SetParameter, SetRemap
+from launch_ros.actions import (
+    LifecycleNode,
+    Node,
+    PushRosNamespace,
+    SetParameter,
+    SetParametersFromFile,
+    SetRemap,
+)
 from launch_ros.parameters import ParameterFile, ParameterValue
 
 TYPES = {"str": str, "int": int, "float": float, "bool": bool}
@@ -111,3 +118,8 @@ def _set_remap(entity: Entity) -> Action:
 def _set_parameter(entity: Entity) -> Action:
     name, value = entity.get_text("name", optional=False), entity.get_text("value", optional=False)
     return SetParameter(name, value[0] if len(value) == 1 else value, **entity.condition())
+
+
+@expose_action("set_parameters_from_file")
+def _set_parameters_from_file(entity: Entity) -> Action:
+    return SetParametersFromFile(entity.get_text("filename", optional=False), **entity.condition())

@@ -1,13 +1,14 @@
-"""The actions `SetLaunchConfiguration` and `SetEnvironmentVariable`."""
+"""The actions that set launch configurations and environment variables."""
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.substitution import SomeSubstitutionsType, Substitution
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions, value_of
 
 
 class _SetValue(Action):
@@ -26,8 +27,8 @@ class _SetValue(Action):
         """The value."""
         return self.__value
 
-    def _set_in(self, values: dict[str, Any], context: LaunchContext) -> None:
-        values[perform_substitutions(context, self.name)] = perform_substitutions(context, self.value)
+    def _performed(self, context: LaunchContext) -> tuple[str, str]:
+        return perform_substitutions(context, self.name), perform_substitutions(context, self.value)
 
 
 class SetLaunchConfiguration(_SetValue):
@@ -35,7 +36,8 @@ class SetLaunchConfiguration(_SetValue):
 
     def execute(self, context: LaunchContext) -> None:
         """As `Action`."""
-        self._set_in(context.launch_configurations, context)
+        name, value = self._performed(context)
+        context.launch_configurations[name] = value
 
 
 class SetEnvironmentVariable(_SetValue):
@@ -43,4 +45,43 @@ class SetEnvironmentVariable(_SetValue):
 
     def execute(self, context: LaunchContext) -> None:
         """As `Action`."""
-        self._set_in(context.environment, context)
+        name, value = self._performed(context)
+        context.environment[name] = value
+
+
+class AppendEnvironmentVariable(_SetValue):
+    """Adds a value to an environment variable for the processes that are started after it.
+
+    A variable that isn't set gets the value alone. prepend: the new value comes first. separator: between the
+    two values.
+    """
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: bool | SomeSubstitutionsType = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(name, value, **kwargs)
+        self.__prepend = prepend
+        self.__separator = normalize_to_list_of_substitutions(separator)
+
+    @property
+    def prepend(self) -> Any:
+        """Whether the value comes first."""
+        return self.__prepend
+
+    @property
+    def separator(self) -> list[Substitution]:
+        """What is between the two values."""
+        return self.__separator
+
+    def execute(self, context: LaunchContext) -> None:
+        """As `Action`."""
+        name, value = self._performed(context)
+        parts = [context.environment[name], value] if name in context.environment else [value]
+        if value_of(context, self.__prepend, bool):
+            parts.reverse()
+        context.environment[name] = perform_substitutions(context, self.__separator).join(parts)

@@ -13,12 +13,14 @@ from launch.substitutions.boolean_substitution import (
 from launch.substitutions.command import Command
 from launch.substitutions.environment_variable import EnvironmentVariable
 from launch.substitutions.equals_substitution import EqualsSubstitution, NotEqualsSubstitution
+from launch.substitutions.file_content import FileContent
 from launch.substitutions.find_executable import FindExecutable
+from launch.substitutions.if_else_substitution import IfElseSubstitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.substitutions.local_substitution import LocalSubstitution
 from launch.substitutions.path_join_substitution import PathJoinSubstitution
 from launch.substitutions.python_expression import PythonExpression
-from launch.substitutions.this_launch_file_dir import ThisLaunchFileDir
+from launch.substitutions.this_launch_file import ThisLaunchFile, ThisLaunchFileDir
 from launch.unsupported import refuse
 
 __all__ = [
@@ -28,7 +30,9 @@ __all__ = [
     "Command",
     "EnvironmentVariable",
     "EqualsSubstitution",
+    "FileContent",
     "FindExecutable",
+    "IfElseSubstitution",
     "LaunchConfiguration",
     "LocalSubstitution",
     "NotEqualsSubstitution",
@@ -38,6 +42,7 @@ __all__ = [
     "PythonExpression",
     "SubstitutionFailure",
     "TextSubstitution",
+    "ThisLaunchFile",
     "ThisLaunchFileDir",
 ]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import yaml
@@ -130,10 +131,7 @@ class Node(ExecuteProcess):
         ]
 
     def __parameter_arguments(self, context: LaunchContext) -> list[str]:
-        arguments = []
-        for name, value in context.launch_configurations.get(GLOBAL_PARAMETERS, ()):
-            text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
-            arguments += ["-p", f"{name}:={text}"]
+        arguments = _arguments_for_all_nodes(context)
         for given in self.__parameters:
             if isinstance(given, Mapping):
                 node = self.node_name if self.is_node_name_fully_specified() else "/**"
@@ -141,10 +139,7 @@ class Node(ExecuteProcess):
                 path = write_parameter_file(yaml.safe_dump({node: {"ros__parameters": values}}))
             else:
                 path = (given if isinstance(given, ParameterFile) else ParameterFile(given)).evaluate(context)
-            if path.is_file():
-                arguments += ["--params-file", str(path)]
-            else:
-                get_logger("launch_ros.actions.node").warning(f"Parameter file path is not a file: {path}")
+            arguments += _file_arguments(path)
         return arguments
 
     def __warn_if_not_unique(self, context: LaunchContext) -> None:
@@ -156,3 +151,24 @@ class Node(ExecuteProcess):
                 f"there are now at least {count} nodes with the name {self.node_name} created within this "
                 "launch context"
             )
+
+
+def _arguments_for_all_nodes(context: LaunchContext) -> list[str]:
+    """The arguments for what SetParameter and SetParametersFromFile have set."""
+    arguments = []
+    for given in context.launch_configurations.get(GLOBAL_PARAMETERS, ()):
+        if isinstance(given, str):
+            arguments += _file_arguments(Path(given).absolute())
+        else:
+            name, value = given
+            text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
+            arguments += ["-p", f"{name}:={text}"]
+    return arguments
+
+
+def _file_arguments(path: Path) -> list[str]:
+    """The arguments for a file of parameters; none and a warning if it isn't a file."""
+    if path.is_file():
+        return ["--params-file", str(path)]
+    get_logger("launch_ros.actions.node").warning(f"Parameter file path is not a file: {path}")
+    return []
