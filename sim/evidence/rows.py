@@ -84,7 +84,10 @@ class UndeliveredMessage(NamedTuple):
 
 
 class ParameterName(NamedTuple):
-    """A parameter of a node: one that it was given a value for as it started, or one that it declares."""
+    """A parameter of a node: one that it was given a value for as it started, or one that it declares.
+
+    It declares a parameter even if the value that it was started with is refused.
+    """
 
     stamp: Seconds
     node: str

@@ -6,6 +6,7 @@ import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
@@ -24,7 +25,12 @@ def declare_parameters(original: Callable) -> Callable:
         if run is None:
             return original(self, namespace, parameters, *more, **keywords)
         _convert_overrides(self, namespace, parameters)
-        made = original(self, namespace, convert_parameters(parameters), *more, **keywords)
+        try:
+            made = original(self, namespace, convert_parameters(parameters), *more, **keywords)
+        except ParameterException:  # such as a start value that the node's own check refuses
+            names = [f"{namespace}.{row[0]}" if namespace else row[0] for row in parameters]
+            run.recorder.parameters(self, names, declared=True)
+            raise
         run.recorder.parameters(self, [parameter.name for parameter in made], declared=True)
         return made
 

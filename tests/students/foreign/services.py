@@ -11,6 +11,7 @@ from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.exceptions import InvalidParameterValueException
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
@@ -182,6 +183,25 @@ class Tunes(Node):
             self.client.set_parameters([Parameter("gain", value=0.8)])
 
 
+class DoesWithoutItsStart(Node):
+    """Refuses the value that it is started with, and goes on with its default."""
+
+    def __init__(self):
+        super().__init__("cautious", parameter_overrides=[Parameter("speed", value=9.0)])
+        self.speed = 0.1
+        self.add_on_set_parameters_callback(self.check)
+        try:
+            self.declare_parameters("limits", [("acceleration", 0.5)])
+            self.declare_parameter("speed", self.speed)
+        except InvalidParameterValueException as error:
+            self.get_logger().warning(str(error))
+        self.create_timer(0.5, lambda: self.get_logger().info(f"{self.speed} m/s"))
+
+    def check(self, parameters):
+        fast = any(one.name == "speed" and one.value > 1.0 for one in parameters)
+        return SetParametersResult(successful=not fast, reason="too fast" if fast else "")
+
+
 class Lamp(LifecycleNode):
     """Publishes only while it is active."""
 
@@ -219,5 +239,6 @@ CORPUS = [
     (gives_up_waiting,),
     (counts, WantsCounts),
     (Tunable, Tunes),
+    (DoesWithoutItsStart,),
     (lamp, Manages),
 ]
