@@ -43,7 +43,8 @@ class NotebookRun:
         plain = [(i, cell.source) for i, cell in enumerate(self._cells) if not cell_name(cell)]
         unchanged = {i for i, source in plain if source in sources}
         self._left = MAX_RESTARTS
-        self._left_out: set[int] = set()  # cells in which a process ended
+        self._left_out: set[int] = set()  # cells in which a process ended, or that used up something
+        self._greedy = -1  # the last cell that did so
         self._skipped = display_only_cells([cell.source for cell in self._cells], unchanged)
 
     def run_all(self) -> None:
@@ -77,9 +78,13 @@ class NotebookRun:
             self._restart(index)
             return
         used_up = self._session.used_up
-        if used_up and not before and is_test(cell) and self._can_restart(index):
+        if used_up and not before:
+            self._greedy = index
+        if used_up and is_test(cell) and self._can_restart(index):
             cell.outputs = [*cell.outputs, *_text(USED_UP.format(used_up))]
-            self._flag(cell, [f"its nodes used up the {used_up}, so the notebook was started again"])
+            who = "its nodes" if self._greedy == index else "the cells before it"
+            self._flag(cell, [f"{who} used up the {used_up}, so the notebook was started again"])
+            self._left_out.add(self._greedy)
             self._restart(index)
 
     def _can_restart(self, index: int) -> bool:

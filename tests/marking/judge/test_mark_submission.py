@@ -151,6 +151,22 @@ def test_what_one_exercise_has_used_up_is_there_for_the_next(marked, what):
     ]
 
 
+GREEDY = {
+    "memory": "while True:\n    kept.append(bytes(100_000_000))\n",
+    "threads": "while True:\n    threading.Thread(target=threading.Event().wait, daemon=True).start()\n",
+}
+
+
+@pytest.mark.parametrize("what", GREEDY)
+def test_what_an_answer_cell_has_used_up_is_there_for_the_next_exercise(marked, what):
+    result = marked(greeting=f"import threading\nkept = []\n{GREETER}\n{GREEDY[what]}")
+    assert points(result)["temperature-points"] == 15
+    words = "Your program had used up the memory: the notebook was started again after this cell.\n"
+    assert text(result, "greeting-points").endswith(words)
+    flag = "the cells before it used up the memory, so the notebook was started again."
+    assert result.flags == [f"The test cell `greeting-points`: {flag}"]
+
+
 def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
     dying = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "ctypes.string_at(0)")
     dying = f"import ctypes\n{dying}"
