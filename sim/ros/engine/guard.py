@@ -108,7 +108,7 @@ class Guard:
 
     def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True
-        if self._student_code() is not None:
+        if self._student_code(frame) is not None:
             raise KeyboardInterrupt  # what a program on a robot gets
 
     @property
@@ -126,9 +126,14 @@ class Guard:
             )
         raise self.hang
 
-    def _student_code(self) -> Fiber | None:
-        """The fiber that the signal came into; None in the moment before it continues: the hub still runs."""
-        return None if greenlet.getcurrent() is self._scheduler.hub else self._scheduler.current
+    def _student_code(self, frame: FrameType | None) -> Fiber | None:
+        """The fiber that the signal came into; None while the hub runs, or at a fiber's own begin or end.
+
+        What is raised there would leave the run, as nothing catches it.
+        """
+        outside = greenlet.getcurrent() is self._scheduler.hub
+        outside |= frame is not None and frame.f_code is Fiber._run.__code__
+        return None if outside else self._scheduler.current
 
     def _where(self, fiber: Fiber) -> str:
         now = self._recorder.now
@@ -138,7 +143,7 @@ class Guard:
         return f"{fiber.name}() at t = {now:g} s"
 
     def _check(self, number: int, frame: FrameType | None) -> None:
-        fiber, stretch, computed = self._student_code(), self._work(), self._computed()
+        fiber, stretch, computed = self._student_code(frame), self._work(), self._computed()
         now = wall_time()
         # No more than the interval: a machine that was suspended has not waited.
         passed, self._checked = min(max(now - self._checked, 0.0), CHECK_EVERY), now

@@ -16,6 +16,8 @@ from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 from sim.ros.recorder.running import callback_name
 
+MOST_THREADS = 1000  # of a program at a time: each machine has such a limit, and a leak should be noticed
+
 
 @hook(threading.Thread, "start", "a free-running thread would make every run different")
 def start(original: Callable) -> Callable:
@@ -23,6 +25,8 @@ def start(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self)
+        if run.current.process.fibers_alive >= MOST_THREADS:
+            raise RuntimeError(f"can't start new thread: {MOST_THREADS} of this program are running")
         self._started.set()
         # Not the thread's name, which counts all threads of the kernel and would make every run different.
         name = f"thread {callback_name(self._target or type(self))}"

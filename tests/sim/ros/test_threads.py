@@ -1,8 +1,12 @@
 """Threads, locks, queues, pools, executors and callback groups: real meaning, simulated time, one order."""
 
+import sys
+
 import pytest
+from rclpy.node import Node
 
 from sim import run
+from sim.ros.fibers.scheduler import engine
 from tests.sim.ros.evidence import logged, times
 from tests.students.engine import threads
 
@@ -89,3 +93,27 @@ def test_threads_that_wait_when_the_run_ends_are_gone():
     recording = run(threads.queues, threads.thread_subclass, seconds=1.1, quiet=True)
     assert times(recording, "work 1") == [1.0]
     assert threading.enumerate() == before
+
+
+def test_a_program_that_starts_threads_without_end_gets_an_error_soon():
+    (error,) = run(threads.StartsThreadsWithoutEnd, seconds=2, quiet=True, expect_error=True).errors
+    assert (error.stamp, error.callback, error.type) == (0.5, "StartsThreadsWithoutEnd.work", "RuntimeError")
+    assert error.text == "can't start new thread: 1000 of this program are running"
+
+
+@pytest.mark.parametrize("begins", [True, False])
+def test_nothing_is_raised_where_a_fiber_begins_or_ends(begins):
+    """Nothing catches it there: the run itself would end with our traceback."""
+    found = []
+
+    def body():
+        frame = sys._getframe(1) if begins else sys._getframe()
+        found.append(engine().guard._student_code(frame))
+
+    class Looks(Node):
+        def __init__(self):
+            super().__init__("looks")
+            engine().spawn(body, "looks", engine().current.process)
+
+    run(Looks, seconds=0.1, quiet=True)
+    assert [fiber is None for fiber in found] == [begins]
