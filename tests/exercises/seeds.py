@@ -6,6 +6,7 @@ import argparse
 import importlib
 import sys
 from collections.abc import Iterator
+from typing import Any
 
 from grader import Exercise
 from grader.programs import LocalPrograms
@@ -28,14 +29,18 @@ def fallen_short(topic: str, name: str, numbers: range, node: str = "") -> Itera
 
     node: the one that is judged, or SOLUTION; if it is empty, the right nodes take turns.
     """
-    exercise, nodes = exercise_of(topic, name), students(topic, name)
-    right = [node] if node else right_nodes(topic, name)
-    programs = [solution(topic, name) if one == SOLUTION else programs_of(nodes[one]) for one in right]
+    exercise, right = exercise_of(topic, name), [node] if node else right_nodes(topic, name)
+    programs = [programs_named(topic, name, one) for one in right]
     for number in numbers:
         turn = number % len(right)
         node, score = right[turn], exercise.judge(LocalPrograms(programs[turn]), f"secret {number}")
         if shown(node, score) != f"{node}: {exercise.points:g}":
             yield f"secret {number}: {shown(node, score)}"
+
+
+def programs_named(topic: str, name: str, node: str) -> tuple[Any, ...]:
+    """The programs of a node of an exercise's module, or the SOLUTION, as `grade` takes them."""
+    return solution(topic, name) if node == SOLUTION else programs_of(students(topic, name)[node])
 
 
 def exercise_of(topic: str, name: str) -> Exercise:

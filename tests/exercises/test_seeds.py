@@ -3,18 +3,17 @@
 import pytest
 
 from grader.programs import LocalPrograms
-from tests.exercises.score_tables import students
-from tests.exercises.seeds import exercise_of
-from tests.students.teams import programs_of
+from tests.exercises.seeds import SOLUTION, exercise_of, programs_named
 
 FELL_SHORT = [
     ("safety", "latch", "Stop", "secret 0"),  # the button's message overtakes a command
     ("delivery", "decide", "OneClassForEachState", "secret 74"),  # it decides between two orders' arrivals
+    ("navigator", "navigate", SOLUTION, "secret 112"),  # its path is 35 % longer in another order
 ]
 
 
 @pytest.mark.parametrize(("topic", "name", "node", "secret"), FELL_SHORT)
 def test_a_right_node_earns_everything_with_a_seed_that_was_unkind(topic, name, node, secret):
     exercise = exercise_of(topic, name)
-    programs = programs_of(students(topic, name)[node])
+    programs = programs_named(topic, name, node)
     assert exercise.judge(LocalPrograms(programs), secret) == exercise.points
