@@ -1,5 +1,6 @@
 """Whether this process has used up what later cells need. Its own claim: it only starts the process again."""
 
+import errno
 import os
 import resource
 from collections.abc import Iterator
@@ -12,8 +13,8 @@ def used_up() -> str:
     """What is nearly used up: "memory", "threads", "open files" or "disk space"; "" for nothing."""
     try:
         return next((name for name, share in _shares() if share > SHARE), "")
-    except (MemoryError, OSError):  # not even this can be read any more
-        return "memory"
+    except (MemoryError, OSError) as error:  # not even this can be read any more
+        return "open files" if getattr(error, "errno", 0) == errno.EMFILE else "memory"
 
 
 def _shares() -> Iterator[tuple[str, float]]:
