@@ -8,7 +8,6 @@ happens at the same time; where none of them misses anything it is fair.
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -17,10 +16,7 @@ from grader import Exercise
 from grader.checks.verdicts import judge
 from grader.programs import LocalPrograms
 from grader.scenario import Scenario
-from tests.exercises.reference import solution
-from tests.exercises.score_tables import students
-from tests.exercises.seeds import right_nodes
-from tests.students.teams import programs_of
+from tests.exercises.seeds import SOLUTION, exercise_of, programs_named, right_nodes
 
 
 def is_fair(
@@ -40,9 +36,8 @@ def fair(
 ) -> Iterator[tuple[str, int, bool]]:
     """Each scenario's name with each seed, and whether no good robot misses anything."""
     topic = folder.split("_", 1)[1]
-    exercise = getattr(importlib.import_module(f"grader.exercises.{topic}"), name)
-    nodes = students(topic, name)
-    robots = [solution(topic, name), *(programs_of(nodes[node]) for node in right_nodes(topic, name))]
+    exercise, names = exercise_of(topic, name), [SOLUTION, *right_nodes(topic, name)]
+    robots = [programs_named(topic, name, node) for node in names]
     for scenario in exercise.scenarios:
         for seed in numbers if scenario.name in kinds or not kinds else ():
             found = (is_fair(exercise, scenario, robot, seed, orders) for robot in robots)

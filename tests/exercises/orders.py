@@ -8,10 +8,8 @@ from collections.abc import Iterator, Sequence
 
 from grader.programs import LocalPrograms
 from tests.exercises.builds import kept_builds
-from tests.exercises.reference import solution
-from tests.exercises.score_tables import graded_exercises, shown, students
-from tests.exercises.seeds import SOLUTION, exercise_of, right_nodes
-from tests.students.teams import programs_of
+from tests.exercises.score_tables import graded_exercises, shown
+from tests.exercises.seeds import SOLUTION, exercise_of, programs_named, right_nodes
 
 
 def fallen_short_in_orders(
@@ -21,10 +19,8 @@ def fallen_short_in_orders(
 
     They take turns, unless every one is tried in each order.
     """
-    exercise, nodes = exercise_of(topic, name), students(topic, name)
-    right = {node: programs_of(nodes[node]) for node in right_nodes(topic, name)}
-    right[SOLUTION] = solution(topic, name)
-    names = list(right)
+    exercise, names = exercise_of(topic, name), [*right_nodes(topic, name), SOLUTION]
+    right = {node: programs_named(topic, name, node) for node in names}
     for number in numbers:
         for node in names if every else [names[number % len(names)]]:
             order = f"{level}{number}"

@@ -34,7 +34,8 @@ def solution(topic: str, name: str) -> tuple[Any, ...]:
                 if graded := _graded(statement, name):
                     given = eval(f"({', '.join([*map(ast.unparse, graded.args), ''])})", space)
                     return tuple(str(Path(one).resolve()) if isinstance(one, str) else one for one in given)
-                if not isinstance(statement, ast.Expr) or "write" in ast.unparse(statement):
+                # What only shows something is left out, but not what writes a package that is given.
+                if not isinstance(statement, ast.Expr) or "packages.write_" in ast.unparse(statement):
                     with contextlib.suppress(NameError):  # of a recording
                         exec(ast.unparse(statement), space)
     raise ValueError(f"{path} grades no {name}")

@@ -3,7 +3,8 @@
 import pytest
 
 from grader import Exercise, Missed, Scenario
-from tests.exercises.fair import is_fair, solution
+from tests.exercises.fair import is_fair
+from tests.exercises.reference import solution
 from tests.students import misfits
 
 talk = Exercise(

@@ -78,8 +78,7 @@ class NotebookRun:
             self._restart(index)
             return
         used_up = self._session.used_up
-        if used_up and not before:
-            self._greedy = index
+        self._note_greedy(index, before)
         if used_up and is_test(cell) and self._can_restart(index):
             cell.outputs = [*cell.outputs, *_text(USED_UP.format(used_up))]
             who = "its nodes" if self._greedy == index else "the cells before it"
@@ -103,14 +102,25 @@ class NotebookRun:
         number = last = 0
         try:
             for number, cell in enumerate(self._cells[: index + 1]):
+                before = self._session.used_up
                 runs = not (is_test(cell) or number in self._skipped or number in self._left_out)
                 self._session.run(cell.source if runs else EMPTY_CELL, CellOutputs(DisplayRegistry()))
                 last = number if runs else last
+                self._note_greedy(number, before)
         except StudentProcessGone:
             if not self._can_restart(index):
                 raise
             self._left_out |= {number, last}  # one that says quit() ends its process after it
             self._restart(index)
+        else:
+            if self._session.used_up and self._can_restart(index):  # by another cell than the first time
+                self._left_out.add(self._greedy)
+                self._restart(index)
+
+    def _note_greedy(self, index: int, before: str) -> None:
+        """Store which cell used something up. before: what was used up before it."""
+        if self._session.used_up and not before:
+            self._greedy = index
 
     def _note_stop(self, gone: StudentProcessGone, more: str = "") -> None:
         stop = f"The notebook {quote(self._name)} stopped {self._where}. {gone}{more}"

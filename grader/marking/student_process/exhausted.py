@@ -6,6 +6,7 @@ import resource
 from collections.abc import Iterator
 
 SHARE = 0.75  # of a limit, from which on it counts as used up
+USUAL_STACK = 8 << 20  # bytes of memory that a thread has for itself, where the limit is not lower
 SCRATCH_BYTES = 1 << 30  # a larger file system is the machine's own, of processes without a sandbox
 
 
@@ -18,8 +19,10 @@ def used_up() -> str:
 
 
 def _shares() -> Iterator[tuple[str, float]]:
-    yield "memory", _pages() * resource.getpagesize() / _limit(resource.RLIMIT_AS)
-    yield "threads", len(os.listdir("/proc/self/task")) / _limit(resource.RLIMIT_NPROC)
+    memory, threads = _pages() * resource.getpagesize(), len(os.listdir("/proc/self/task"))
+    stacks = threads * min(_limit(resource.RLIMIT_STACK), USUAL_STACK)
+    yield "threads" if stacks > memory / 2 else "memory", memory / _limit(resource.RLIMIT_AS)
+    yield "threads", threads / _limit(resource.RLIMIT_NPROC)
     yield "open files", len(os.listdir("/proc/self/fd")) / _limit(resource.RLIMIT_NOFILE)
     disk = os.statvfs(".")
     if 0 < disk.f_blocks * disk.f_frsize < SCRATCH_BYTES:

@@ -158,13 +158,14 @@ GREEDY = {
 
 
 @pytest.mark.parametrize("what", GREEDY)
-def test_what_an_answer_cell_has_used_up_is_there_for_the_next_exercise(marked, what):
-    result = marked(greeting=f"import threading\nkept = []\n{GREETER}\n{GREEDY[what]}")
+def test_what_answer_cells_have_used_up_is_there_for_the_next_exercise(marked, what):
+    again = f"import threading\nkept = []\n{GREEDY[what]}"
+    result = marked(greeting=f"import threading\nkept = []\n{GREETER}\n{GREEDY[what]}", greeting_see=again)
     assert points(result)["temperature-points"] == 15
-    words = "Your program had used up the memory: the notebook was started again after this cell.\n"
+    words = f"Your program had used up the {what}: the notebook was started again after this cell.\n"
     assert text(result, "greeting-points").endswith(words)
-    flag = "the cells before it used up the memory, so the notebook was started again."
-    assert result.flags == [f"The test cell `greeting-points`: {flag}"]
+    flag = f"the cells before it used up the {what}, so the notebook was started again."
+    assert f"The test cell `greeting-points`: {flag}" in result.flags
 
 
 def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
