@@ -1,5 +1,8 @@
 """Nodes with one mistake each, named by it: every exception that the diagnosis puts into words."""
 
+import threading
+import time
+
 import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
@@ -341,3 +344,15 @@ def main_that_misuses_a_list():
 def main_that_logs_at_no_level():
     rclpy.init()
     Node("logger").get_logger().warn_once("only once")
+
+
+class StartsThreadsWithoutEnd(Node):
+    """A leak: each thread sleeps, and the loop goes on."""
+
+    def __init__(self):
+        super().__init__("leak")
+        self.create_timer(0.5, self.work)
+
+    def work(self):
+        while True:
+            threading.Thread(target=time.sleep, args=(1000,)).start()

@@ -30,6 +30,8 @@ ADVICE = {
     mistakes.PublishesAnotherType: "This publisher was created for String, but got a Float64: use the same type in "
     "create_publisher() and publish().",
     mistakes.NodeWithoutName: "A node needs a name: `super().__init__('my_node')`.",
+    mistakes.StartsThreadsWithoutEnd: "A loop or a callback starts another thread each time, and none of them ends. "
+    "Start one thread in `__init__`, or let a timer do the work.",
     mistakes.NodeNameWithSpace: "A node's name has only letters, digits and underscores, such as `my_node`: no "
     "spaces, dashes or slashes.",
     mistakes.TopicNameWithSpace: "A topic's name has only letters, digits, underscores and slashes, such as "

@@ -8,6 +8,7 @@ from rclpy.node import Node
 from sim import run
 from sim.ros.fibers.scheduler import engine
 from tests.sim.ros.evidence import logged, times
+from tests.students import mistakes
 from tests.students.engine import threads
 
 pytestmark = pytest.mark.pythons
@@ -96,7 +97,7 @@ def test_threads_that_wait_when_the_run_ends_are_gone():
 
 
 def test_a_program_that_starts_threads_without_end_gets_an_error_soon():
-    (error,) = run(threads.StartsThreadsWithoutEnd, seconds=2, quiet=True, expect_error=True).errors
+    (error,) = run(mistakes.StartsThreadsWithoutEnd, seconds=2, quiet=True, expect_error=True).errors
     assert (error.stamp, error.callback, error.type) == (0.5, "StartsThreadsWithoutEnd.work", "RuntimeError")
     assert error.text == "can't start new thread: 1000 of this program are running"
 

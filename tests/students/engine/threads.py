@@ -309,15 +309,3 @@ def more_work_than_threads():
     executor = MultiThreadedExecutor(num_threads=2)
     executor.add_node(node)
     executor.spin()
-
-
-class StartsThreadsWithoutEnd(Node):
-    """A leak: each thread sleeps, and the loop goes on."""
-
-    def __init__(self):
-        super().__init__("leak")
-        self.create_timer(0.5, self.work)
-
-    def work(self):
-        while True:
-            threading.Thread(target=time.sleep, args=(1000,)).start()
