@@ -4,12 +4,11 @@ import functools
 import hashlib
 import sys
 from importlib import metadata
-from pathlib import Path
 
+from sim.course_folders import COURSE, ROS_PACKAGES
 from sim.distro import RCLPY_DISTRIBUTION
 
-CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim", "ros_packages")  # the last has tf2_ros and launch
+CODE = COURSE / "grader", COURSE / "sim", ROS_PACKAGES  # the last has tf2_ros and launch
 LOCK = "requirements.lock"  # the file with the version of every library
 LIBRARIES = (RCLPY_DISTRIBUTION, "numpy", "pymunk", "ipython", "matplotlib")
 
@@ -17,17 +16,18 @@ LIBRARIES = (RCLPY_DISTRIBUTION, "numpy", "pymunk", "ipython", "matplotlib")
 @functools.cache
 def code_version() -> str:
     """A digest of the code that marks: when it changes, submissions are marked again. Computed once."""
-    files = (path for package in PACKAGES for path in (CODE / package).rglob("*") if path.is_file())
+    paths = ((folder, path) for folder in CODE for path in folder.rglob("*") if path.is_file())
+    files = {str(path.relative_to(folder.parent)): path for folder, path in paths}
     digest = hashlib.sha256()
-    for path in sorted(path for path in files if "__pycache__" not in path.parts):
-        for part in (str(path.relative_to(CODE)).encode(), path.read_bytes()):
+    for name in sorted(name for name in files if "__pycache__" not in name):
+        for part in (name.encode(), files[name].read_bytes()):
             digest.update(len(part).to_bytes(8) + part)
     return digest.hexdigest()
 
 
 def lock_digest() -> str:
     """SHA-256 of the lock file."""
-    return hashlib.sha256((CODE / LOCK).read_bytes()).hexdigest()
+    return hashlib.sha256((ROS_PACKAGES.parent / LOCK).read_bytes()).hexdigest()
 
 
 def versions() -> dict[str, str]:

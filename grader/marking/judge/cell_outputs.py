@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 import sysconfig
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from grader.marking.outputs import (
@@ -20,6 +19,7 @@ from grader.marking.outputs import (
     output_size,
     writable_text,
 )
+from sim.course_folders import COURSE, ROS_PACKAGES
 
 MAX_SUBMISSION_CHARS = 20_000_000  # of all cells of a submission
 MAX_OUTPUTS = 1_000  # of one cell
@@ -28,8 +28,8 @@ MAX_TRACEBACK_LINES = 1_000  # of a traceback
 MAX_DISPLAY_ID = 200  # characters of a display_id
 
 # Of Python's libraries and of the course; longer paths first, because one may be inside another.
-COURSE = str(Path(__file__).parents[3])
-PREFIXES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
+FOLDERS = COURSE, ROS_PACKAGES.parent
+PREFIXES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, *map(str, FOLDERS))
 INSTALL_FOLDERS = sorted({f"{place}/" for place in PREFIXES if len(place) > 1}, key=len, reverse=True)
 
 

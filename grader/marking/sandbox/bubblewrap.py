@@ -10,6 +10,8 @@ from pathlib import Path
 from grader.marking.errors import SandboxMissing
 from grader.marking.sandbox.confinement import HOME
 from grader.marking.sandbox.mounts import STAGE
+from grader.workspace.interfaces import TOOLS
+from sim.course_folders import ROS_PACKAGES
 
 UNSAFE = "or mark with `--unsafe`, which lets students' code read and change all your files"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64")
@@ -24,9 +26,8 @@ SYSCTLS = (
 )
 # Ubuntu's profile: bubblewrap may make namespaces, and the processes that it starts may not.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
-ROS_PACKAGES = Path(__file__).parents[3] / "ros_packages" / "python"
-BUILD_TOOLS = Path(__file__).parents[3] / "ros_packages" / "interfaces" / "build_tools"
-COURSE = "sim", "grader", *sorted(file.parent.name for file in ROS_PACKAGES.glob("*/__init__.py"))
+MODULES = ROS_PACKAGES / "python"
+PACKAGES = "sim", "grader", *sorted(file.parent.name for file in MODULES.glob("*/__init__.py"))
 
 
 def visible_paths(extra: Sequence[Path]) -> list[str]:
@@ -37,7 +38,7 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
     for path in extra:
         os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
-    course = *_packages(), *ROS_PACKAGES.glob("*.py"), BUILD_TOOLS
+    course = *_packages(), *MODULES.glob("*.py"), TOOLS / "build_tools"
     paths = {Path(path).absolute() for path in (*python, *course, *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
@@ -45,7 +46,7 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
 
 
 def _packages() -> list[Path]:
-    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in COURSE]
+    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in PACKAGES]
 
 
 def _links(program: str) -> Iterator[tuple[str, str]]:

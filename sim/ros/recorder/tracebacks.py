@@ -5,12 +5,12 @@ from __future__ import annotations
 import linecache
 import sysconfig
 import traceback
-from pathlib import Path
 from types import CodeType, FrameType
 
-_COURSE = Path(__file__).parents[3]
+from sim.course_folders import COURSE, ROS_PACKAGES
+
 # Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
-_OF_COURSE = (str(_COURSE / "sim"), str(_COURSE / "ros_packages"))
+_OF_COURSE = (str(COURSE / "sim"), str(ROS_PACKAGES))
 _LIBRARIES = (*_OF_COURSE, *sysconfig.get_paths().values(), "<frozen ")
 
 

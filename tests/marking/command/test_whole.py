@@ -1,6 +1,5 @@
 """The real course, marked by the real command; then nbgrader's own commands on what it made."""
 import csv
-import os
 import re
 import shutil
 import subprocess
@@ -23,10 +22,15 @@ HIDDEN = (SECRET, "COURSE_SECRET", "site-packages", str(ROOT), "Traceback (most 
 
 @pytest.fixture(scope="module")
 def marked(tmp_path_factory):
-    """A class with a right, a half right, an untouched and a broken submission, and what the command said."""
+    """A class with a right, a half right, an untouched and a broken submission, and what the command said.
+
+    Its folder is a second copy of the course, which uses the .venv of this one.
+    """
     course = copy_of_course(ROOT, tmp_path_factory.mktemp("course"))
     for other in set((course / "solutions").iterdir()) - {course / "solutions" / "01_nodes"}:
         shutil.rmtree(other)
+    for package in ("grader", "sim", "ros_packages"):
+        shutil.copytree(ROOT / package, course / package, ignore=shutil.ignore_patterns("__pycache__"))
     release(course)
     submit_samples(course, "01_nodes")
     broken = course / "class" / "submitted" / "zoe" / "01_nodes"
@@ -35,8 +39,7 @@ def marked(tmp_path_factory):
     (course / ".secret").touch(mode=0o600)
     (course / ".secret").write_text(SECRET)
     command = [sys.executable, "-m", "grader", "mark", "01_nodes", "--jobs", "2"]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    done = subprocess.run(command, cwd=course, env=environment, text=True, capture_output=True)
+    done = subprocess.run(command, cwd=course, text=True, capture_output=True)
     assert done.returncode == 0, done.stderr
     return course, done.stdout
 
