@@ -13,6 +13,7 @@ from grader.course_notebooks import (
     CHAPTERS,
     DUE,
     PICTURE,
+    UPDATED,
     Chapter,
     CoursePart,
     Notebook,
@@ -38,11 +39,17 @@ class CourseMap:
         self.notebooks = list(read_notebooks(root))
         self._due = read_due_dates(root / "course" / DUE)
         self._new_versions = new_versions(root)
+        self._updates = read_text(root / UPDATED).splitlines()
 
     @property
     def next(self) -> Notebook | None:
-        """The first notebook that is not done; None if all are."""
-        return next((notebook for notebook in self.notebooks if not notebook.done), None)
+        """The first notebook that is not done; None if all are.
+
+        A lesson before the last one that is done counts as read, even if some of its cells were not run.
+        """
+        begun = max((i for i, item in enumerate(self.notebooks) if item.done or item.points), default=-1)
+        rest = (item for i, item in enumerate(self.notebooks) if not item.done and (item.most or i > begun))
+        return next(rest, None)
 
     @property
     def chapters(self) -> list[Chapter]:
@@ -57,11 +64,18 @@ class CourseMap:
     def __repr__(self) -> str:
         lines = [f"{item.name}, {self._state(item)}" for item in self.notebooks]
         lines += [f"New version: {self._relative(new)}" for _, new in self._new_versions]
+        lines += self._updates
         return "\n".join([*lines, self._points(), *([f"Next: {self.next.name}"] if self.next else [])])
 
     def _repr_html_(self) -> str:
         return course_page(
-            self.chapters, self.next, self._points(), self._new_versions, self._relative, self._address
+            self.chapters,
+            self.next,
+            self._points(),
+            new_versions=self._new_versions,
+            updates=self._updates,
+            name=self._relative,
+            address=self._address,
         )
 
     def _points(self) -> str:

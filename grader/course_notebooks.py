@@ -22,6 +22,7 @@ FIRST = "lesson.ipynb"  # the first or only notebook of a lesson
 PICTURE = "goal.svg"  # the goal of FIRST, beside it; that of driving.ipynb is driving.svg
 FOLDERS = ("course", "exercises")
 BRIDGE = "bridge"  # the folder of the pages after the lessons; each is a notebook
+UPDATED = ".updated.txt"  # in the folder of the course; see work_folder.py
 NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
 
 

@@ -25,21 +25,24 @@ def course_page(
     chapters: Sequence[Chapter],
     following: Notebook | None,
     points: str,
+    *,
     new_versions: Sequence[tuple[Path, Path]],
+    updates: Sequence[str],
     name: Text,
     address: Text,
 ) -> str:
     """The page of a course.
 
     following: the next notebook. points: a sentence. new_versions: files that the student has changed, each
-    with its new version. name, address: give the path of a file in the course, and its relative URL.
+    with its new version. updates: a sentence for each notebook that the last update changed. name, address:
+    give the path of a file in the course, and its relative URL.
     """
     style = files("grader").joinpath("course_page.css").read_text(encoding="utf-8")
     shown = "".join(_chapter(chapter, following, address) for chapter in chapters)
     return (
         f'<section class="ros2-course-map" aria-label="The course"><style>{style}</style>'
         f'<div class="top">{_next(following, address)}<p class="points">{html.escape(points)}</p></div>'
-        f"{_new_versions(new_versions, name, address)}{shown}</section>"
+        f"{_news(new_versions, updates, name, address)}{shown}</section>"
     )
 
 
@@ -50,12 +53,13 @@ def _next(following: Notebook | None, address: Text) -> str:
     return f'<a class="next" href="{_quoted(address(following.path))}">{words}</a>'
 
 
-def _new_versions(versions: Sequence[tuple[Path, Path]], name: Text, address: Text) -> str:
-    """A line for each file that has a new version."""
+def _news(versions: Sequence[tuple[Path, Path]], updates: Sequence[str], name: Text, address: Text) -> str:
+    """A line for each file that has a new version, and for each update."""
     lines = ""
     for own, new in versions:
         first, second = _link(address(own), name(own)), _link(address(new), new.name)
         lines += f"<li>There is a new version of {first}. Yours is unchanged; the new one is {second}.</li>"
+    lines += "".join(f"<li>{html.escape(sentence)}</li>" for sentence in updates)
     return f'<ul class="news" aria-label="New versions">{lines}</ul>' if lines else ""
 
 

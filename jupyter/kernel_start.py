@@ -1,6 +1,7 @@
 """Runs at the start of every kernel of `make lab`: explains undefined names and missing modules.
 
-A cell that uses rclpy finds `sim` imported, so that a spin outside a run can't block the kernel.
+A cell that uses rclpy finds `sim` imported, so that a spin outside a run can't block the kernel. A cell that
+prints without end doesn't overload the page.
 """
 
 
@@ -33,6 +34,21 @@ def _import_sim_before_rclpy() -> None:
         shell.events.register("pre_run_cell", before)
 
 
+def _limit_output() -> None:
+    import builtins
+    import importlib.util
+    from pathlib import Path
+
+    if not hasattr(builtins, "get_ipython"):
+        return
+    sim = Path(importlib.util.find_spec("sim").origin).parent  # not imported here because it is slow
+    spec = importlib.util.spec_from_file_location("output_limit", sim / "notebook" / "output_limit.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.limit_output(builtins.get_ipython())
+
+
 _explain_missing_names()
 _import_sim_before_rclpy()
-del _explain_missing_names, _import_sim_before_rclpy
+_limit_output()
+del _explain_missing_names, _import_sim_before_rclpy, _limit_output

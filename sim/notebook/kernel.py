@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import Any
 
 from sim.notebook.cell_history import CellHistory, OutdatedName
+from sim.notebook.output_limit import limit_output
 from sim.notebook.page_comm import PageComm
 from sim.notebook.shared_scripts import SharedScripts
 from sim.ros.absent_names import explain_absent_name
@@ -63,6 +64,7 @@ def watch_cells() -> None:
     ipython = shell()
     if ipython is None or _history is not None:
         return
+    limit_output(ipython)
     history = _history = CellHistory(ipython.user_ns)
 
     def begin(info: Any) -> None:

@@ -52,6 +52,7 @@ def test_a_student_gets_copies_of_lessons_and_exercises_and_of_nothing_else(cour
     assert update_work_folder(course) == []
     assert files(course) == {
         ".given.json",
+        ".updated.txt",
         LESSON,
         "course/01_nodes/goal.py",
         "course/README.md",
@@ -64,9 +65,39 @@ def test_what_is_unchanged_is_brought_up_to_date_even_if_it_was_run(course):
     (course / "work" / LESSON).write_text(notebook("1", output="1"))
     (course / LESSON).write_text(notebook("2"))
     (course / "course/01_nodes/goal.py").write_text("GOAL = 2\n")
-    assert update_work_folder(course) == []
-    assert (course / "work" / LESSON).read_text() == notebook("2")
+    notices = [
+        f"{LESSON} was updated: 0 of its 1 cells of code are unchanged and keep their outputs. Run the others."
+    ]
+    assert update_work_folder(course) == notices
+    assert (course / "work/.updated.txt").read_text() == notices[0] + "\n"
+    assert (course / "work" / LESSON).read_text() == notebook("2") + "\n"
     assert (course / "work/course/01_nodes/goal.py").read_text() == "GOAL = 2\n"
+
+
+def test_cells_with_the_same_text_keep_their_outputs_in_an_update(course):
+    before, after = nbformat.v4.new_notebook(), nbformat.v4.new_notebook()
+    before.cells = [nbformat.v4.new_code_cell(text, id=text) for text in ("one", "two", "three")]
+    after.cells = [nbformat.v4.new_code_cell(text, id=text) for text in ("new", "two", "one")]
+    after.cells.append(nbformat.v4.new_code_cell("changed", id="three"))
+    (course / LESSON).write_text(nbformat.writes(before))
+    update_work_folder(course)
+    for number, cell in enumerate(before.cells, 1):
+        cell.update(outputs=[nbformat.v4.new_output("stream", text=cell.id)], execution_count=number)
+    (course / "work" / LESSON).write_text(nbformat.writes(before))
+    (course / LESSON).write_text(nbformat.writes(after))
+    (notice,) = update_work_folder(course)
+    assert "2 of its 4 cells of code are unchanged" in notice
+    cells = nbformat.read(course / "work" / LESSON, 4).cells
+    shown = [(cell.source, cell.execution_count, [output.text for output in cell.outputs]) for cell in cells]
+    assert shown == [("new", None, []), ("two", 2, ["two"]), ("one", 1, ["one"]), ("changed", None, [])]
+    assert update_work_folder(course) == []
+
+
+def test_a_lesson_that_was_not_run_is_updated_without_a_word(course):
+    update_work_folder(course)
+    (course / LESSON).write_text(notebook("2"))
+    assert update_work_folder(course) == []
+    assert (course / "work/.updated.txt").read_text() == ""
 
 
 def test_outputs_stay_as_long_as_there_is_nothing_new(course):
@@ -110,7 +141,10 @@ def test_a_notebook_that_was_broken_by_hand_counts_as_changed(course):
 
 def test_the_record_names_every_file(course):
     update_work_folder(course)
-    assert set(json.loads((course / "work/.given.json").read_text())) == files(course) - {".given.json"}
+    assert set(json.loads((course / "work/.given.json").read_text())) == files(course) - {
+        ".given.json",
+        ".updated.txt",
+    }
 
 
 def test_the_courses_own_lessons_and_starters_are_given_and_git_ignores_the_copies():

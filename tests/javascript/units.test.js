@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { save } from "../../jupyter/labextensions/ros2-course/static/saving.js";
 import { load } from "./load.js";
 
 const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"], ["checkWorld", "list", "number", "numbers", "text", "checkGraph"]);
@@ -119,4 +120,16 @@ test("a link with a time has the key of its run", () => {
   assert.deepEqual(timeOf(link("#run-0123456789ab-3.16")), { run: "0123456789ab", time: 3.16 });
   assert.equal(timeOf(link("#somewhere")), null);
   assert.equal(timeOf(null), null);
+});
+
+test("a notebook is saved once at a time, and everything that changed is saved", async () => {
+  let running = 0, most = 0, count = 0;
+  const context = { async save() { count++; most = Math.max(most, ++running); await null; running--; } };
+  await Promise.all(Array.from({ length: 8 }, () => save(context)));
+  assert.deepEqual([most, count], [1, 2]);
+  await save(context);
+  assert.equal(count, 3);
+  const failing = { save: () => Promise.reject(new Error("disk full")) };
+  await Promise.all([save(failing), save(failing)]);
+  await save({ isDisposed: true });
 });

@@ -4,6 +4,7 @@ import { KernelComm } from "./kernel_comm.js";
 import { RobotPanel, RobotSidebar, robotRenderer, ROBOT } from "./robot_panel.js";
 import { imageRenderer } from "./images.js";
 import { waitingExecutor } from "./cell_executor.js";
+import { save } from "./saving.js";
 import { navigationButtons, renameTab } from "./tabs.js";
 import { startPage } from "./start.js";
 import { validateButton } from "./validate.js";
@@ -45,12 +46,13 @@ export async function plugins(share) {
       };
       tracker.widgetAdded.connect(extend);
       tracker.forEach((panel) => extend(null, panel));
-      lab.NotebookActions.executionScheduled.connect((_, { notebook, cell }) => {
-        for (const [panel, comm] of comms) {
-          if (panel.content !== notebook) continue;
-          comm.sendCells();
-          if (cell.model.getMetadata("nbgrader")?.grade) panel.context.save(); // a check is of what was saved
-        }
+      lab.NotebookActions.executionScheduled.connect((_, { notebook }) => {
+        for (const [panel, comm] of comms) if (panel.content === notebook) comm.sendCells();
+      });
+      // The start page shows the points of the saved notebook.
+      lab.NotebookActions.executed.connect((_, { notebook, cell }) => {
+        const panel = [...comms.keys()].find((each) => each.content === notebook);
+        if (panel && cell.model.getMetadata("nbgrader")?.grade) save(panel.context);
       });
     },
   }];

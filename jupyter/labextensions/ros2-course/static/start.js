@@ -1,6 +1,8 @@
 // The start page: a tab without a notebook and without a kernel. The server makes its content, see
 // jupyter/start_page.py; it is loaded again whenever the tab is shown, after unsaved notebooks are saved.
 
+import { save } from "./saving.js";
+
 export const OPEN_START = "ros2-course:open-start";
 const ID = "ros2-course-start";
 const ADDRESS = "ros2-course/start";
@@ -45,7 +47,7 @@ class StartPage {
     this.loading = true;
     try {
       const others = this.tracker.filter((other) => other.context.model.dirty && !other.context.model.readOnly);
-      await Promise.all(others.map((other) => other.context.save()));
+      await Promise.all(others.map((other) => save(other.context)));
       const { serverSettings } = this.app.serviceManager;
       const response = await this.lab.ServerConnection.makeRequest(serverSettings.baseUrl + ADDRESS, {}, serverSettings);
       this.put(await response.text());

@@ -1,6 +1,8 @@
 // Validate: runs the notebook from top to bottom in a separate kernel, without affecting the student's kernel, and shows
 // the points of each exercise as soon as they are available.
 
+import { save } from "./saving.js";
+
 const HEADING = /^#+\s*(.+?)\s*(?:\([\d.]+ points?\))?\s*$/m;
 const WIDTH = "min(80vw, 720px)";
 
@@ -17,7 +19,7 @@ async function validate(lab, app, panel) {
   const checks = checksOf(cells);
   const tests = checks.size;
   for (const [cell, { name, points }] of checks) table.wait(cell, name, points);
-  panel.context.save();
+  save(panel.context);
   table.setStatus(tests ? "Running the notebook in a new kernel ..." : "This notebook has no checks to run.");
   const closed = lab.showDialog({
     title: "Validation Results", body: table.widget, buttons: [lab.Dialog.okButton({ label: "Close" })],
