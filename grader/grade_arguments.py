@@ -25,7 +25,10 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
 
 
 def outdated_code(nodes: Sequence[Any]) -> Fault | None:
-    """The fault for code that is older than the code in the notebook; None if it is current."""
+    """The fault for code that is older than the code in the notebook; None if it is current.
+
+    nodes: programs, and paths of the folders that are graded.
+    """
     found = find_outdated(nodes)
     if found is None:
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, NoReturn, Protocol
 
 from grader.diagnosis.fault import Fault
@@ -70,6 +71,9 @@ class LocalPrograms:
         self, name: str, build_type: str, uses: Interfaces | None = None, corrections: Corrections = ()
     ) -> Package | Fault | None:
         """See ProgramSource."""
+        folders = [Path(node, "src", name) for node in self._nodes if isinstance(node, str)]
+        if outdated := outdated_code(folders):
+            return outdated
         read = functools.partial(installation.serialize_sources, self._nodes)
         made = _made(read, self._build, name, build_type, uses, corrections)
         if isinstance(made, Package):

@@ -86,6 +86,22 @@ class CellHistory:
                 return OutdatedName(name)
         return None
 
+    def objects_of(self, things: Iterable[Any]) -> list[Any]:
+        """These objects, and those that they look up by a name of the notebook, directly or indirectly."""
+        found, waiting = [], list(things)
+        while waiting:
+            thing = waiting.pop(0)
+            if not any(thing is other for other in found):
+                found.append(thing)
+                names = looked_up_names(thing)
+                waiting += [self._namespace[name] for name in names if name in self._namespace]
+        return found
+
+    @property
+    def sources(self) -> Mapping[str, str]:
+        """The source of each cell, as the page last sent it; empty without a page."""
+        return self._sources
+
     def explain_missing(
         self, name: str, order: list[str] | None = None, sources: dict[str, str] | None = None
     ) -> str:

@@ -15,10 +15,12 @@ from sim.notebook.cell_history import CellHistory, OutdatedName
 from sim.notebook.output_limit import limit_output
 from sim.notebook.page_comm import PageComm
 from sim.notebook.shared_scripts import SharedScripts
+from sim.notebook.written_files import OutdatedFile, OutdatedModule, WrittenFiles
 from sim.ros.absent_names import explain_absent_name
 
 COURSE_FOLDERS = tuple(str(Path(__file__).parents[2] / name) for name in ("sim", "grader"))
 _history: CellHistory | None = None
+_files = WrittenFiles()
 _page = PageComm()
 _scripts = SharedScripts()
 
@@ -69,11 +71,13 @@ def watch_cells() -> None:
 
     def begin(info: Any) -> None:
         history.begin(_key(info), info.raw_cell or "")
+        _files.begin(info.raw_cell or "")
         _scripts.begin(_key(info))
 
     def end(result: Any) -> None:
         error = result.error_before_exec or result.error_in_exec
         history.end(_key(result.info), result.info.raw_cell or "", _format_error(error))
+        _files.end(_key(result.info), result.info.raw_cell or "")
 
     def update(order: list[str], sources: dict[str, str]) -> None:
         history.update(order, sources)
@@ -85,12 +89,17 @@ def watch_cells() -> None:
     _page.open(update)
 
 
-def find_outdated(nodes: Iterable[Any]) -> OutdatedName | None:
-    """The first outdated name that these programs need; None if all are up to date."""
+def find_outdated(nodes: Iterable[Any]) -> OutdatedName | OutdatedFile | OutdatedModule | None:
+    """The first outdated name, file or module that these programs need; None if all are up to date.
+
+    nodes: programs, and paths of folders whose files they need.
+    """
     if _history is None:
         return None
     programs = list(nodes)
-    return _history.outdated([*programs, *(node.target for node in programs if hasattr(node, "target"))])
+    programs += [node.target for node in programs if hasattr(node, "target")]
+    things = _history.objects_of(programs)
+    return _history.outdated(programs) or _files.outdated(things, _history.sources)
 
 
 def raise_if_outdated(nodes: Iterable[Any]) -> None:
