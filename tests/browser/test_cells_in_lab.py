@@ -1,5 +1,6 @@
 """What ran and what stands there: the page tells the kernel, so that nothing old is judged or shown."""
 
+import nbformat
 import pytest
 
 from tests.browser.lab import write_notebook
@@ -115,3 +116,56 @@ def test_an_interrupted_run_says_so_in_one_line(greeter, students_folder):
     lab.wait_for_cell(2)
     (output,) = lab.outputs(2)
     assert output["traceback"] == ["KeyboardInterrupt: The run was interrupted."]
+
+
+def test_an_endless_loop_that_prints_leaves_the_page_usable_and_is_interrupted(students_folder, open_lab):
+    name = "cells/endless.ipynb"
+    write_notebook(students_folder / name, "while True: print('OK')", "'after'")
+    with open_lab(name) as lab:
+        lab.run_cell(0, wait=False)
+        lab.cell(0).locator(".jp-OutputArea-output", has_text="■ stops the cell").wait_for()
+        lab.screenshot("endless-loop")
+        lab.command("notebook:interrupt-kernel")
+        lab.wait_for_cell(0)
+        texts = ["".join(output.get("text", "")) for output in lab.outputs(0)]
+        assert sum(map(len, texts)) < 10_000
+        assert any(text.startswith("... and ") and text.endswith(" more lines.\n") for text in texts)
+        assert says(lab, 1) == "'after'"
+
+
+MODULE = "%%writefile my_greeting.py\nTEXT = 'Hello!'\n"
+USES_MODULE = f"import importlib\nimport my_greeting\nimportlib.reload(my_greeting)\n{ANSWER}".replace(
+    '"Hello!"', "my_greeting.TEXT"
+)
+
+
+def test_a_module_that_was_changed_and_not_written_or_not_reloaded_is_not_judged(students_folder, open_lab):
+    name = "cells/module.ipynb"
+    write_notebook(students_folder / name, SETUP, MODULE, USES_MODULE, CHECK)
+    with open_lab(name) as lab:
+        lab.run_all()
+        assert "8 of 8 points" in lab.output()
+        lab.page.evaluate(EDIT, [1, MODULE.replace("!", "")])
+        judged = says(lab, 3)
+        assert "0 of 8 points" in judged
+        assert "the cell that writes my_greeting.py was changed, and has not run since" in judged
+        lab.run_cell(1)
+        assert "the module has not been reloaded since" in says(lab, 3)
+        lab.run_cell(2)
+        assert "8 of 8 points" in says(lab, 3)  # a greeting is any text
+
+
+def test_the_checks_of_a_notebook_that_is_run_whole_are_saved_without_a_question(students_folder, open_lab):
+    name = "cells/many_checks.ipynb"
+    write_notebook(students_folder / name, SETUP, ANSWER, *[CHECK] * 8)
+    notebook = nbformat.read(students_folder / name, 4)
+    for number, cell in enumerate(notebook.cells[2:]):
+        cell.metadata["nbgrader"] = {"grade": True, "grade_id": f"check-{number}", "points": 8}
+    nbformat.write(notebook, students_folder / name)
+    with open_lab(name) as lab:
+        for _ in range(3):
+            lab.run_all()
+            lab.page.wait_for_function("() => !window.notebook().context.model.dirty")
+            assert lab.page.locator(".jp-Dialog").count() == 0
+        saved = nbformat.read(students_folder / name, 4)
+    assert ["8" in str(cell.outputs) for cell in saved.cells[2:]] == [True] * 8
