@@ -12,7 +12,7 @@ from grader.checks.check import Check, Hints, new_check
 from grader.checks.verdicts import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
-from grader.orders import USUAL, OrderDifference, is_full, judge_in_orders, order_of_run
+from grader.orders import OrderDifference, judge_in_orders, order_of_run
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation
 from grader.scenario import Companions, Scenario
 from grader.score import Score
@@ -207,8 +207,8 @@ class Exercise:
             in_order = functools.partial(self._judged, scenario, run)
             try:
                 if order is None:
-                    chosen = order_of_run(index, seed) if all(map(is_full, judged)) else USUAL
-                    (recording, verdicts), difference = judge_in_orders(chosen, in_order, index, not secret)
+                    chosen = order_of_run(index, seed, public=not secret)
+                    (recording, verdicts), difference = judge_in_orders(chosen, in_order, judged, not secret)
                     differences += filter(None, [difference])
                 else:
                     recording, verdicts = in_order(order)

@@ -1,8 +1,9 @@
 """An exercise's runs happen in different orders: a check passes if it passes in each that is graded.
 
-The first run has the usual order of what happens at the same time. Each other one has an order derived from
-its seed, so that it is private when a class is marked. Once something is missed, the remaining runs have the
-usual order, in which a mistake is easiest to see.
+Each run has an order of what happens at the same time that is derived from its seed, so that it is private
+when a class is marked. Only in a student's own notebook the first run has the usual order. Nothing that a
+program does changes the order of its other runs. Where a run misses something new, it is judged in the usual
+order as well, in which a mistake is easiest to see.
 """
 
 from __future__ import annotations
@@ -10,13 +11,16 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
-from grader.checks.verdicts import Verdict
+from grader.checks.verdicts import WORST_FIRST, Verdict, rank
 from sim.evidence import Recording
 from sim.order import Order
 from sim.ros.exploring import failure_of, list_departures, shrink
 
 USUAL = ""
+PASSED = True, 1.0, WORST_FIRST.index("passed")
+POINTS, ALL_OF_IT = 2, 3  # parts of a verdict's rank: those that decide on points, and its words as well
 LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"  # without those that look alike
 KEY_LENGTH = 4
 MOST_RUNS, MOST_SECONDS = 24, 120.0  # simulated, to find the fewest differences that explain a miss
@@ -24,9 +28,12 @@ MOST_RUNS, MOST_SECONDS = 24, 120.0  # simulated, to find the fewest differences
 Judged = tuple[Recording, list[Verdict]]
 
 
-def order_of_run(index: int, seed: int) -> str:
-    """The order in which an exercise's run of this index and seed happens: its text; "" for the usual one."""
-    if index == 0:
+def order_of_run(index: int, seed: int, *, public: bool) -> str:
+    """The order in which an exercise's run of this index and seed happens: its text; "" for the usual one.
+
+    public: the seed is not a private one.
+    """
+    if public and index == 0:
         return USUAL
     drawn = int.from_bytes(hashlib.blake2b(f"order of {seed}".encode(), digest_size=8).digest())
     return "".join(LETTERS[drawn // len(LETTERS) ** place % len(LETTERS)] for place in range(KEY_LENGTH))
@@ -36,11 +43,6 @@ def without_late_start(order: str) -> str:
     """The same order, in which all programs start at once."""
     chosen = Order.parse(order)
     return USUAL if chosen is None else str(replace(chosen, late=0.0))
-
-
-def is_full(verdicts: Sequence[Verdict]) -> bool:
-    """Whether nothing was missed."""
-    return all(verdict.status == "passed" for verdict in verdicts)
 
 
 @dataclass(frozen=True)
@@ -69,28 +71,34 @@ class OrderDifference:
 
 
 def judge_in_orders(
-    order: str, judge: Callable[[str], Judged], run: int, public: bool
+    order: str, judge: Callable[[str], Judged], earlier: Sequence[Sequence[Verdict]], public: bool
 ) -> tuple[Judged, OrderDifference | None]:
-    """Judge one run in an order; where something is missed, in the usual one as well.
+    """Judge one run in an order; where it misses more than the earlier runs, in the usual one as well.
 
-    What is missed in the usual order is explained there. Only what is missed in the other order alone is due
-    to the order, and says so; then the run with the fewest differences is shown.
+    earlier: the verdicts of the runs before. Each check gets the worse of its two verdicts. What is missed in
+    the other order alone is due to the order, and says so; then the run with the fewest differences is shown.
     """
     found = judge(order)
-    if order == USUAL or is_full(found[1]):
+    before = [verdict for verdicts in earlier for verdict in verdicts]
+    if order == USUAL or not _worse(found[1], before, ALL_OF_IT):
         return found, None
     usual = judge(USUAL)
-    passed = {verdict.name for verdict in usual[1] if verdict.status == "passed"}
-    missed = {verdict.name: verdict for verdict in found[1] if verdict.status != "passed"}
-    due = {name: verdict for name, verdict in missed.items() if name in passed}
+    due = {verdict.name: verdict for verdict in _worse(found[1], usual[1], POINTS)}
     if not due:
         return usual, None
-    known = {verdict.name for verdict in usual[1]}
-    errors = [v for v in found[1] if v.name not in known and is_full(usual[1])]
     recording = _fewest_differences(found[0], order, judge, set(due))
-    verdicts = [*errors, *(due.get(verdict.name, verdict) for verdict in usual[1])]
-    noted = [_with_note(v, recording) if v in errors or v.name in due else v for v in verdicts]
-    return (recording, noted), OrderDifference(run, usual[0], recording, public)
+    noted = {name: _with_note(verdict, recording) for name, verdict in due.items()}
+    errors = [verdict for name, verdict in noted.items() if name not in {other.name for other in usual[1]}]
+    verdicts = [*errors, *(noted.get(verdict.name, verdict) for verdict in usual[1])]
+    return (recording, verdicts), OrderDifference(len(earlier), usual[0], recording, public)
+
+
+def _worse(verdicts: Sequence[Verdict], others: Sequence[Verdict], parts: int) -> list[Verdict]:
+    """The verdicts that come before all others on the same check, by so many parts of their rank."""
+    worst: dict[str, tuple[Any, ...]] = {}
+    for verdict in others:
+        worst[verdict.name] = min(worst.get(verdict.name, PASSED), rank(verdict))
+    return [each for each in verdicts if rank(each)[:parts] < worst.get(each.name, PASSED)[:parts]]
 
 
 def _fewest_differences(

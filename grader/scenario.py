@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from grader.orders import without_late_start
+from grader.orders import USUAL, without_late_start
 from grader.programs import Prepare, ProgramSource
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
@@ -33,6 +33,7 @@ class Scenario:
     network: what lies between the robot and the student's nodes, as in sim.run.
     fair: the seeds of which students get one each when they are marked, where luck decides in others.
     waits: the world waits for the student's nodes, so that in another order they may start later.
+    any_order: it is fair in any order; otherwise it happens in the usual one only.
     """
 
     world: Any = None
@@ -45,6 +46,7 @@ class Scenario:
     network: Network | None = None
     fair: Sequence[int] = ()
     waits: bool = True
+    any_order: bool = True
 
     def run(
         self, source: ProgramSource, seed: int, package: Package | None = None, order: str = ""
@@ -70,11 +72,15 @@ class Scenario:
             quiet=True,
             network=self.network,
             expect_error=True,  # the score reports it
-            order=order if self.waits else without_late_start(order),
+            order=self._possible(order),
         )
         for error in recording.course_errors:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
         return recording
+
+    def _possible(self, order: str) -> str:
+        order = order if self.any_order else USUAL
+        return order if self.waits else without_late_start(order)
 
     def _world(self, seed: int) -> Any:
         if not callable(self.world):

@@ -172,9 +172,16 @@ class _Judging:
         )
 
 
+def rank(verdict: Verdict) -> tuple[bool, float, int]:
+    """Its place among verdicts on the same check: of several runs, the first in this order is shown.
+
+    One of a robot that was unsafe goes before all, and earns no more.
+    """
+    return not verdict.unsafe, verdict.credit, WORST_FIRST.index(verdict.status)
+
+
 def _worst_of(group: Sequence[Verdict]) -> Verdict:
-    """The one that earns least; one of a robot that was unsafe goes before all, and earns no more."""
-    shown = min(group, key=lambda v: (not v.unsafe, v.credit, WORST_FIRST.index(v.status)))
+    shown = min(group, key=rank)
     return replace(shown, credit=min(verdict.credit for verdict in group))
 
 

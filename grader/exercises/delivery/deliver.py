@@ -50,7 +50,7 @@ def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
     until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
     world = functools.partial(warehouse, kind)
-    about = {"prepare": prepare, "name": kind, "fair": FAIR[kind]}
+    about = {"prepare": prepare, "name": kind, "fair": FAIR[kind], "any_order": kind != "shift"}
     return Scenario(world, seconds, seed, until=until, **about)
 
 
