@@ -7,10 +7,18 @@ import re
 from collections.abc import Iterator
 
 from grader.checks.check import Missed
+from grader.workspace.building import CUT, OUTPUT_BYTES
 from grader.workspace.package import Package, PackageRun
+from sim.evidence import INFRASTRUCTURE_TOPICS, is_node_service
 
 ROS = re.compile(r"rclpy|tf2_ros|message_filters|launch(_ros)?|rosbag2_py|std_srvs|\w+_msgs|\w+_interfaces")
 TESTS = ("test", "tests")
+IMPORTING = {"importlib", "import_module", "__import__", "exec", "eval", "runpy", "pkgutil"}
+IN_SETUP = {"setuptools", "glob", "os", "pathlib"}  # what a setup.py may import
+OF_OS = {"path", "listdir", "walk", "sep"}  # and of `os`
+HIDES = {*IMPORTING, "vars", "globals", "getattr", "__dict__", "__builtins__"}
+CHANGING = {*IMPORTING, "vars", "__dict__", "addsitedir"}  # finds modules in other folders
+OF_EVERY_NODE = {*INFRASTRUCTURE_TOPICS, "/tf", "/tf_static"}
 WARNING = re.compile(r"\b\w*Warning: (.+)")  # a line of Python's warnings
 MODULES = re.compile(r"lib/python[^/]+/site-packages/(.+)")
 
@@ -23,15 +31,21 @@ def package_of(run: PackageRun) -> Package:
 
 
 def names_what_it_imports(run: PackageRun) -> None:
-    """Every package that modules and launch files import is in package.xml. Raises Missed."""
+    """Every package that modules and launch files import is in package.xml. Raises Missed.
+
+    If a module imports by a function or executes text, what its nodes use counts as imported.
+    """
     package = package_of(run)
-    imported = {
-        name
+    modules = [
+        data
         for path, data in package.sources.items()
         if path.endswith(".py") and path.split("/")[1] not in (*TESTS, "setup.py")
-        for name in imports(data)
-    }
-    wanted = sorted({name.split(".")[0] for name in imported if ROS.fullmatch(name.split(".")[0])})
+    ]
+    imported = {name.split(".")[0] for data in modules for name in imports(data)}
+    if any(names_used(data) & IMPORTING for data in modules):
+        ends = [end for end in run.graph.endpoints if not end.from_course and end.name not in OF_EVERY_NODE]
+        imported |= {"rclpy", *(end.type.split("/")[0] for end in ends if not is_node_service(end.name))}
+    wanted = sorted(name for name in imported if ROS.fullmatch(name))
     left_out = [name for name in wanted if name not in package.package_xml.needs]
     if left_out:
         raise Missed(
@@ -44,6 +58,7 @@ def names_what_it_imports(run: PackageRun) -> None:
 
 def installs_by_itself(run: PackageRun) -> None:
     """setup.py installs what colcon would otherwise add. Raises Missed."""
+    _requires_short_output(package_of(run))
     name = package_of(run).package_xml.name
     pairs = {
         "marker": f"('share/ament_index/resource_index/packages', ['resource/{name}'])",
@@ -66,12 +81,35 @@ def build_warnings(package: Package) -> list[str]:
 
 
 def builds_without_warnings(run: PackageRun) -> None:
-    """The build prints no warning, and setup.py hides none. Raises Missed, about the warning or ""."""
+    """The build prints no warning, and setup.py can hide none. Raises Missed, about the warning or ""."""
     package, expected = package_of(run), "no warning of colcon build"
     for warning in build_warnings(package):
         raise Missed(expected, f"“{warning}”", about=(warning,))
-    if "warnings" in imports(package.sources.get(f"{package.package_xml.name}/setup.py", b"")):
+    _requires_short_output(package)
+    setup = package.sources.get(f"{package.package_xml.name}/setup.py", b"")
+    if "warnings" in imports(setup):
         raise Missed(expected, "a setup.py that imports warnings, to hide them", about=("",))
+    for name in hiding(setup):
+        raise Missed("a setup.py that calls setup(...), and nothing else", f"“{name}” in it", about=("",))
+
+
+def hiding(setup: bytes) -> list[str]:
+    """Return what a setup.py uses that could hide a warning: other modules, and os beyond its paths."""
+    tree = list(ast.walk(parsed(setup)))
+    modules = {name.split(".")[0] for name in imports(setup)} - IN_SETUP
+    of_os = {
+        part.attr
+        for part in tree
+        if isinstance(part, ast.Attribute) and getattr(part.value, "id", "") == "os"
+    }
+    return sorted(modules | {f"os.{name}" for name in of_os - OF_OS} | (names_used(setup) & HIDES))
+
+
+def _requires_short_output(package: Package) -> None:
+    """Raise Missed, about "", if the build printed so much that something is left out of its output."""
+    if CUT in package.built.output:
+        saw = f"more than {OUTPUT_BYTES // 1000} kB"
+        raise Missed("the output of a build, which is short", saw, "Print nothing in setup.py.", about=("",))
 
 
 def installs_only_its_name(run: PackageRun) -> None:
@@ -101,13 +139,24 @@ def imports_by_its_name(run: PackageRun) -> None:
     for path in sorted(installed):
         data = built.files[path]
         bare = [found for found in imports(data) if found.split(".")[0] in own]
-        saw = "sys.path" if b"sys.path" in data else f"an import of {bare[0]}" if bare else ""
+        # The program that setuptools makes of an entry point uses importlib.
+        changing = names_used(data) & (CHANGING if path in modules else CHANGING - {"importlib"})
+        changes = "sys.path" if b"sys.path" in data else min(changing, default="")
+        saw = changes or (f"an import of {bare[0]}" if bare else "")
         if saw:
             raise Missed(
                 f"imports from {name} or {name}.MODULE",
                 f"{saw} in {path.rpartition('/')[2]}",
                 "A module of the package is found by the package's name, from every folder.",
             )
+
+
+def names_used(data: bytes) -> set[str]:
+    """Return the names and attributes in a module's code, and the modules that it imports."""
+    parts = list(ast.walk(parsed(data)))
+    names = {part.id for part in parts if isinstance(part, ast.Name)}
+    names |= {part.attr for part in parts if isinstance(part, ast.Attribute)}
+    return names | {name.split(".")[0] for name in imports(data)}
 
 
 def imports(data: bytes) -> Iterator[str]:

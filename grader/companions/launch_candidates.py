@@ -50,7 +50,11 @@ def generate_launch_description():
     command = [limiter, "--ros-args", *words.split()]
     return LaunchDescription([ExecuteProcess(cmd=command, output="screen")])
 """
-RIGHT = (GIVEN, IN_A_GROUP, AS_A_COMMAND)
+# What differs from the given file in one line may be right, too.
+IN_ANOTHER_ORDER = GIVEN.replace(
+    '[("request", "wanted"), ("speed", "driven")]', '[("speed", "driven"), ("request", "wanted")]'
+)
+RIGHT = (IN_ANOTHER_ORDER, IN_A_GROUP, AS_A_COMMAND)
 NODE = GIVEN[GIVEN.index("        Node(") : GIVEN.index("    ])")]
 OTHER_NODE = 'ros_arguments=["-p", "guard:limit:=0.3"]'
 WRONG = (

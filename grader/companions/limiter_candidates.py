@@ -88,8 +88,8 @@ def main():
     rclpy.init()
     rclpy.spin(Limiter())
 """
-RIGHT = (
-    GIVEN,
+RIGHT = (  # what differs from the given file in one line may be right, too
+    GIVEN.replace(CLAMP, "min(limit, max(-limit, msg.data))"),
     OTHER,
     GIVEN.replace(CLAMP, "sorted((-limit, msg.data, limit))[1]").replace("0.5, self", "0.52, self"),
 )

@@ -20,7 +20,9 @@ from grader.workspace import interfaces
 from grader.workspace.sources import INSTALLED, InvalidFiles, Sources, read_files, validate_files
 
 SECONDS = 300.0  # only against hanging: a busy machine is slow, and the sandbox limits the CPU time
-OUTPUT_BYTES = 50_000  # limit of colcon's output; its end is kept
+OUTPUT_BYTES = 50_000  # limit of colcon's output; what is between its begin and its end is left out
+CUT = "\n[The rest of the output is left out]\n"
+HALF = (OUTPUT_BYTES - len(CUT)) // 2
 COLCON = (
     *("--log-base", "/dev/null", "build", "--merge-install", "--executor", "sequential"),
     *("--event-handlers", "console_stderr+", "console_direct-"),
@@ -37,8 +39,8 @@ class CannotBuildHere(Exception):
 class Built:
     """The result of a build.
 
-    files: the installed files, by path below install/. programs: the executable ones. output: the end of
-    colcon's output, in full lines. problem: why the build failed, or "".
+    files: the installed files, by path below install/. programs: the executable ones. output: what colcon
+    printed; if it was too long, its begin and its end. problem: why the build failed, or "".
     """
 
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -110,14 +112,14 @@ def parse_built(files: Any, programs: Any, output: Any, problem: Any) -> Built:
     listed = programs if isinstance(programs, list) else []
     names = [name for name in listed if isinstance(name, str)]
     texts = [text if isinstance(text, str) else "" for text in (output, problem)]
-    output, problem = (text[-OUTPUT_BYTES:].encode(errors="replace").decode() for text in texts)
+    output, problem = (_shortened(text).encode(errors="replace").decode() for text in texts)
     return Built(taken, frozenset(name for name in names if name in taken), output, problem)
 
 
 def _execute(command: Sequence[str], working: Path, folder: Path) -> tuple[int | None, str]:
     """Run a command of a build in a working folder. folder: the workspace.
 
-    Returns its exit status, None after a timeout, and the end of its output.
+    Returns its exit status, None after a timeout, and its output, shortened.
     """
     inherited = ("PATH", "HOME", "TMPDIR", "LANG", "PYTHONHASHSEED")
     environment = {name: os.environ[name] for name in inherited if name in os.environ}
@@ -136,7 +138,7 @@ def _execute(command: Sequence[str], working: Path, folder: Path) -> tuple[int |
             status = None
         finally:
             _end(process)
-        return status, _last(output)
+        return status, _begin_and_end(output)
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
@@ -146,7 +148,15 @@ def _end(process: subprocess.Popen[bytes]) -> None:
     process.wait()
 
 
-def _last(output: Any) -> str:
+def _begin_and_end(output: Any) -> str:
+    """What a file has, and of a long one the begin and the end."""
     size = output.seek(0, os.SEEK_END)
-    output.seek(max(0, size - OUTPUT_BYTES))
-    return output.read().decode(errors="replace")
+    output.seek(0)
+    begin = output.read(HALF).decode(errors="replace")
+    output.seek(max(min(HALF, size), size - HALF))
+    end = output.read().decode(errors="replace")
+    return begin + CUT * (size > 2 * HALF) + end
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= OUTPUT_BYTES else text[:HALF] + CUT + text[-HALF:]

@@ -50,13 +50,17 @@ def converts(run: PackageRun) -> None:
 @gauge.check(5)
 def has_a_module(run: PackageRun) -> None:
     """The conversion is the function celsius in gauge/convert.py, and the node's module imports it."""
-    sources = package_of(run).sources
-    nodes = ast.walk(parsed(sources.get(PLACE, b"")))
+    sources, programs = package_of(run).sources, package_of(run).built.programs
+    nodes = list(ast.walk(parsed(sources.get(PLACE, b""))))
     names = [node.name for node in nodes if isinstance(node, ast.FunctionDef)]
     if "celsius" not in names:
         saw = f"{', '.join(names) or 'no function'} there" if PLACE in sources else "no such file"
         raise Missed(f"a function celsius in ws/src/{PLACE}", saw,
                      "Put the arithmetic there, and nothing else.")
+    if not any(isinstance(node, ast.BinOp) for node in nodes):
+        raise Missed(f"the conversion in ws/src/{PLACE}", "no arithmetic there", "Return 100 * volts - 50.")
+    if not any(path.startswith("lib/gauge/") for path in programs):
+        raise Missed("a program", "none")  # the error of `ros2 run` explains it
     modules = [path for path in sources if path.startswith("gauge/gauge/") and path != PLACE]
     found = {name for path in modules for name in imports(sources[path])}
     if not found & {MODULE, f"{MODULE}.celsius", ".convert", ".convert.celsius"}:

@@ -43,9 +43,13 @@ def starts(run: PackageRun) -> None:
         raise Missed("the package as it was given", f"another ws/src/{changed[0]}", hint)
     with first_failure(run):
         senders = {row.sender for row in publishes(run, COMMANDS, "geometry_msgs/msg/Twist")}
-        if f"/{OWN_NAME}" in senders:
-            hint = "Start the program: it drives by itself."
-            raise Missed("commands of the program", "commands of `ros2 topic pub`", hint)
+        others = [name for name in senders if not _is_the_program(run, name)]
+        if others:
+            hint = "Start the program with `ros2 run`: it drives by itself."
+            saw = f"commands of {others[0]}, which is not the program"
+            if f"/{OWN_NAME}" in others:
+                saw = "commands of `ros2 topic pub`"
+            raise Missed("commands of the program", saw, hint)
 
 
 @session.check(3, after=starts)
@@ -104,6 +108,16 @@ def ends(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
         if run.all_exited_at is None:
             hint = "Ctrl-C ends a program: a line Ctrl-C, below a line that names its terminal."
             raise Missed("no program at the end", f"one that still runs after {run.seconds:g} s", hint)
+
+
+def _is_the_program(run: PackageRun, node: str) -> bool:
+    """Whether a node offers what the program offers, once for each publisher of commands that it has.
+
+    A name can be given to any node, such as that of `ros2 topic pub`.
+    """
+    own = [end for end in run.graph.endpoints if end.node == node]
+    servers = [end for end in own if end.kind == "service" and end.type == "std_srvs/srv/SetBool"]
+    return len(servers) >= sum(end.kind == "publisher" and end.name == COMMANDS for end in own) > 0
 
 
 def _lasts(begin: Seconds, end: Seconds, speed: float) -> None:

@@ -14,10 +14,11 @@ from grader.checks.packages import (
     package_of,
     parsed,
 )
-from grader.workspace.building import Built
+from grader.workspace.building import CUT, Built
 from grader.workspace.package import Package, PackageRun
 from grader.workspace.package_xml import PackageXml
 from sim import Recording
+from sim.evidence import Endpoint, Graph
 
 MODULES = "lib/python3.12/site-packages"
 
@@ -115,6 +116,51 @@ def test_a_build_that_hides_its_warnings_has_not_got_rid_of_them():
     assert (miss.saw, miss.about) == ("a setup.py that imports warnings, to hide them", ("",))
 
 
+@pytest.mark.parametrize(
+    ("setup", "name"),
+    [
+        ("import sys\nsys.modules['warn' + 'ings'].simplefilter('ignore')", "sys"),
+        ("import os\nos.dup2(1, 2)", "os.dup2"),
+        ("import os\nvars(os)['dup2'](1, 2)", "vars"),
+        ("from importlib import import_module", "importlib"),
+        ("__import__('warnings')", "__import__"),
+    ],
+)
+def test_a_setup_that_could_hide_a_warning_is_named(setup, name):
+    miss = missed(builds_without_warnings, packaged({"setup.py": setup}))
+    assert miss.expected == "a setup.py that calls setup(...), and nothing else"
+    assert miss.saw == f"“{name}” in it"
+    assert miss.about == ("",)
+
+
+def test_a_setup_that_looks_for_files_hides_nothing():
+    setup = "import os\nfrom glob import glob\nfrom pathlib import Path\nglob(os.path.join('launch', '*'))"
+    builds_without_warnings(packaged({"setup.py": setup}))
+
+
+@pytest.mark.parametrize("check", [installs_by_itself, builds_without_warnings])
+def test_an_output_of_which_a_part_is_left_out_is_too_long(check):
+    miss = missed(check, packaged(output=f"no matter{CUT}Finished <<< patrol\n"))
+    assert (miss.expected, miss.saw) == ("the output of a build, which is short", "more than 50 kB")
+    assert miss.hint == "Print nothing in setup.py."
+
+
+def test_what_is_imported_by_a_function_is_what_the_nodes_use():
+    run = packaged({"patrol/node.py": "from importlib import import_module"}, depend=["rclpy"])
+    run.graph = Graph(
+        ["/a"],
+        [
+            Endpoint("publisher", "/a", "/x", "std_msgs/msg/String", {}),
+            Endpoint("publisher", "/a", "/tf", "tf2_msgs/msg/TFMessage", {}),
+            Endpoint("service", "/a", "/a/get_parameters", "rcl_interfaces/srv/GetParameters", {}),
+            Endpoint("publisher", "/b", "/y", "nav_msgs/msg/Path", {}, from_course=True),
+        ],
+    )
+    miss = missed(names_what_it_imports, run)
+    assert miss.expected == "<depend> or <exec_depend> for each of rclpy, std_msgs in package.xml"
+    assert miss.saw == "none for std_msgs"
+
+
 def test_at_the_top_of_what_is_installed_is_the_package_alone():
     own = {f"{MODULES}/patrol/node.py": "", f"{MODULES}/patrol-0.0.0-py3.12.egg-info/PKG-INFO": "", "setup.sh": ""}
     installs_only_its_name(packaged(installed=own))
@@ -135,11 +181,16 @@ def test_at_the_top_of_what_is_installed_is_the_package_alone():
         (f"{MODULES}/patrol/node.py", "from speeds import FAST", "an import of speeds in node.py"),
         (f"{MODULES}/patrol/node.py", "import sys\nsys.path.append('..')", "sys.path in node.py"),
         ("lib/patrol/drive", "import speeds", "an import of speeds in drive"),
+        (f"{MODULES}/patrol/node.py", "import sys\nvars(sys)['path'].append('..')", "vars in node.py"),
+        (f"{MODULES}/patrol/node.py", "import importlib", "importlib in node.py"),
+        ("lib/patrol/drive", "exec(open('speeds.py').read())", "exec in drive"),
     ],
 )
 def test_a_module_of_the_package_is_imported_by_the_packages_name(path, text, saw):
     helper = {f"{MODULES}/patrol/speeds.py": "import sys, rclpy", "lib/other/x": "import speeds"}
-    imports_by_its_name(packaged(installed={**helper, path: "from patrol import speeds\nfrom .speeds import FAST"}))
+    right = "from patrol import speeds\nfrom .speeds import FAST"
+    # What setuptools makes of an entry point is a program, and uses importlib.
+    imports_by_its_name(packaged(installed={**helper, path: right, "lib/patrol/x": "import importlib.metadata"}))
     miss = missed(imports_by_its_name, packaged(installed={**helper, path: text}))
     assert (miss.expected, miss.saw) == ("imports from patrol or patrol.MODULE", saw)
     assert miss.hint == "A module of the package is found by the package's name, from every folder."

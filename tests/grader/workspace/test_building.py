@@ -8,7 +8,7 @@ import pytest
 
 from grader.workspace import building, installation, package
 from grader.workspace.build_errors import explain_build_error
-from grader.workspace.building import Built, CannotBuildHere, build, parse_built
+from grader.workspace.building import CUT, Built, CannotBuildHere, build, parse_built
 from grader.workspace.package import make_package
 from grader.workspace.sources import InvalidFiles
 from tests.students.packages import greeter
@@ -79,6 +79,8 @@ def test_without_a_known_reason_the_last_lines_are_reported():
 def test_what_another_process_built_is_looked_at():
     built = parse_built({"a": b"1"}, ["a", "b"], "x" * 60_000, 7)
     assert (built.files, built.programs, len(built.output), built.problem) == ({"a": b"1"}, {"a"}, 50_000, "")
+    begin, _, end = parse_built({}, [], f"first {'x' * 60_000} last", "").output.partition(CUT)
+    assert (begin[:6], end[-5:]) == ("first ", " last")
     assert parse_built({}, "a", None, "\ud800").problem == "?"
     with pytest.raises(InvalidFiles, match=r"^`install/\.\./a`: a name may have"):
         parse_built({"../a": b""}, [], "", "")

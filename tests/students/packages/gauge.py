@@ -2,7 +2,10 @@
 
 from tests.students.workspaces import Workspace, changed, package
 
-PARTS = ("RAISES", "BEGIN", "TEST", "TRY", "NODE", "CONVERT", "RIGHT", "GAUGE", "MODULE", "INSIDE")
+PARTS = (
+    *("RAISES", "BEGIN", "TEST", "TRY", "NODE", "CONVERT", "RIGHT", "NO_PROGRAM", "NOTHING", "GAUGE"),
+    *("MODULE", "INSIDE"),
+)
 NODE = """\
 import rclpy
 from rclpy.node import Node
@@ -82,3 +85,8 @@ OpenLimits = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "
 NoOffset = Workspace(__name__, changed(RIGHT, MODULE, " - 50.0", ""))
 BrokenCable = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "-9.0 <= volts <= 9.0"))
 Silent = Workspace(__name__, changed(RIGHT, GAUGE, '"celsius", 10', '"kelvin", 10'))
+NO_PROGRAM = changed(RIGHT, "gauge/setup.py", "'gauge = gauge.node:main'", "")
+OnlyAModule = Workspace(__name__, NO_PROGRAM)
+NOTHING = "def celsius(volts):\n    pass\n"
+NothingInside = Workspace(__name__, changed(RIGHT, MODULE, "", NOTHING))
+NothingAtAll = Workspace(__name__, changed(NO_PROGRAM, MODULE, "", NOTHING))

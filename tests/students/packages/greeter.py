@@ -90,3 +90,23 @@ TenMegabytes = Workspace(__name__, {**RIGHT, "greeter/data/map": b"0" * 10_000_0
 NotStarted = Workspace(
     __name__, changed(RIGHT, WHOLE[0], "setup(\n", "raise NotImplementedError()\nsetup(\n")
 )
+ImportsByAFunction = Workspace(
+    __name__,
+    changed(
+        changed(RIGHT, WHOLE[1], "  <depend>rclpy</depend>\n  <depend>std_msgs</depend>\n", ""),
+        WHOLE[3],
+        "",
+        "from importlib import import_module\n\nrclpy = import_module('rc' 'lpy')\n"
+        "Node = import_module('rclpy.node').Node\nString = import_module('std_' + 'msgs.msg').String\n"
+        + NODE.partition("String\n")[2],
+    ),
+)
+PrintsALot = Workspace(
+    __name__,
+    changed(
+        changed(RIGHT, WHOLE[0], "('share/greeter', ['package.xml']),", ""),
+        WHOLE[0],
+        "from glob import glob",
+        "import sys\nfrom glob import glob\n\nsys.stderr.write('no matter\\n' * 30000)",
+    ),
+)

@@ -219,6 +219,17 @@ def test_the_text():
     for line in ('executable="limiter"', 'namespace="front"', '{"limit": 0.3}', '("request", "wanted")'):
         assert line in text
 """)
+ComparesTheText = tests(f"""\
+from pathlib import Path
+
+GIVEN = {GIVEN!r}
+
+
+def test_the_text():
+    text = Path(__file__).parents[1].joinpath("launch/guard.launch.py").read_text()
+    pairs = zip(GIVEN.splitlines(), text.splitlines(), strict=False)
+    assert sum(given != line for given, line in pairs) != 1
+""")
 LeavesItRunning = tests("""\
 import asyncio
 import threading

@@ -249,6 +249,34 @@ from limiter.node import Limiter
 def test_the_source():
     assert "if math.isfinite(msg.data) else" in inspect.getsource(Limiter)
 """)
+ComparesTheText = tests(f"""\
+import inspect
+
+from limiter import node
+
+GIVEN = {GIVEN!r}
+
+
+def test_the_text():
+    pairs = zip(GIVEN.splitlines(), inspect.getsource(node).splitlines(), strict=False)
+    assert sum(given != line for given, line in pairs) != 1
+""")
+JudgesItself = tests("""\
+import time
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+def test_it():
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    publisher = Node("judge", context=context).create_publisher(String, "/verdicts", 100)
+    time.sleep(1.0)
+    for number in range(1, 15):
+        publisher.publish(String(data=f"{number} failed 1 "))
+""")
 NoWorkflow = but(WORKFLOW)
 NoYaml = ci("    runs-on", "\truns-on")
 OnlyAText = ci(CI, "test\n")

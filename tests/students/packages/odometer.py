@@ -125,3 +125,24 @@ HidesWarnings = several(
     changed(RIGHT, S, NEW_OPTION, OLD_OPTION),
     (S, "from setuptools", "import warnings\nwarnings.filterwarnings('ignore')\n\nfrom setuptools"),
 )
+HidesByAnotherName = several(
+    changed(RIGHT, S, NEW_OPTION, OLD_OPTION),
+    (
+        S,
+        "from setuptools",
+        "import sys\nsys.modules['warn' + 'ings'].filterwarnings('ignore')\n\nfrom setuptools",
+    ),
+)
+ClosesStderr = several(
+    changed(RIGHT, S, NEW_OPTION, OLD_OPTION),
+    (S, "from setuptools", "import os\nos.dup2(os.open(os.devnull, os.O_WRONLY), 2)\n\nfrom setuptools"),
+)
+PathOfAnotherName = Workspace(
+    __name__,
+    changed(
+        RIGHT,
+        N,
+        "from odometer.encoder",
+        "import os, sys\nvars(sys)['path'].insert(0, os.path.dirname(__file__))\nfrom encoder",
+    ),
+)

@@ -3,7 +3,7 @@
 from grader.companions.watchman_package import FILES
 from tests.students.workspaces import Workspace, changed
 
-PARTS = ("FILES", "RIGHT", "SET_UP", "START", "CALL", "SIGN", "typed", "but")
+PARTS = ("FILES", "RIGHT", "SET_UP", "START", "CALL", "SIGN", "DRIVE", "typed", "but")
 SET_UP = "export ROS_DOMAIN_ID=42 ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
 START = "ros2 run watchman watch --ros-args -r drive:=cmd_vel"
 CALL = "ros2 service call /watchman/patrol std_srvs/srv/SetBool"
@@ -188,3 +188,11 @@ OnlyBuilds = typed("cd ws\ncolcon build\nsource install/setup.bash\n")
 NothingTyped = typed("# terminal 1\n")
 NoSession = Workspace(__name__, dict(FILES))
 NotStarted = typed("# YOUR CODE HERE\nraise NotImplementedError()\n")
+DRIVE = "ros2 topic pub -n watchman -t 60 -r 10 /cmd_vel geometry_msgs/msg/Twist"
+OnlyItsName = typed(f"""\
+{SET_UP}
+{DRIVE} "{{linear: {{x: 0.1}}}}"
+{DRIVE} "{{linear: {{x: 0.25}}}}"
+{DRIVE.replace("-t 60", "-t 5")} "{{linear: {{x: 0.0}}}}"
+{SIGN}
+""")
