@@ -4,7 +4,8 @@ from grader.checks import questions
 from grader.companions.blind_drivers import turner
 from grader.companions.faulty_perception import partners
 from grader.companions.map_messages import KEPT, flat, listed, seconds, stamped
-from grader.companions.parcel_database import scanner, shelf_of
+from grader.companions.parcel_database import scanner
+from grader.companions.parcel_library import shelf_of
 from grader.companions.planned_nodes import ShelfCamera, publishes, sketch, subscribes
 from grader.companions.robot_programs import programs, shift_of
 from grader.companions.scripted_orders import desk

@@ -32,7 +32,7 @@ def has_its_endpoints(run: Recording) -> None:
         lambda run, label, texts: any("coroutine" in text for text in texts),
     "A shelf was published with another parcel's label. Several coroutines run at the same time, so "
     "each needs its own label: pass it as an argument.":
-        lambda run, label, texts: any(text.endswith(f": {stored(label)}") for text in texts),
+        lambda run, label, texts: any(text.endswith(f": {stored(run.seed, label)}") for text in texts),
     "A task runs only while asyncio's event loop gets a turn. Write `await asyncio.sleep(0.02)` after each "
     "spin_once(): rclpy.spin() and time.sleep() never give it one.":
         lambda run, label, texts: not from_student(run, SHELVES),
@@ -43,7 +43,7 @@ def answers_each_label(run: Recording) -> list[tuple[Message, Message]]:
     answers, found = from_student(run, SHELVES), []
     for row in from_course(run, LABELS, settled=MOST, what="labels"):
         label = row.message.data
-        wanted, ready = f"{label}: {stored(label)}", row.stamp + seconds_for(label)
+        wanted, ready = f"{label}: {stored(run.seed, label)}", row.stamp + seconds_for(run.seed, label)
         later = [answer for answer in answers if answer.stamp >= row.stamp - EDGE]
         own = [answer for answer in later if answer.message.data.startswith(f"{label}:")]
         if [answer.message.data for answer in own] != [wanted] or own[0].stamp < ready - EDGE:
@@ -64,7 +64,7 @@ def answers_each_label(run: Recording) -> list[tuple[Message, Message]]:
 def answers_side_by_side(run: Recording, found: list[tuple[Message, Message]]) -> None:
     """A label doesn't wait until the database has found the earlier ones."""
     for label, answer in found:
-        ready = label.stamp + seconds_for(label.message.data)
+        ready = label.stamp + seconds_for(run.seed, label.message.data)
         if answer.stamp > ready + SLACK:
             expected = f"“{answer.message.data}” by {ready + SLACK:.3g} s, found at {ready:.3g} s"
             raise Missed(expected, f"it at {answer.stamp:.3g} s", about=(label,), picture="topics")

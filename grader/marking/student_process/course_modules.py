@@ -24,7 +24,8 @@ SERVED = (
     "grader.companions.parameter_start",
     "grader.companions.test_runner",
 )
-WITH_JUDGE = ("grader.companions.workshop",)  # its nodes hold right functions: it starts no program here
+# Their nodes hold right functions, or answers: they start no program here.
+WITH_JUDGE = ("grader.companions.workshop", "grader.companions.parcel_database")
 
 
 def keep_only(packages: Sequence[str]) -> None:

@@ -1,6 +1,7 @@
 """Nodes that wait for a database with asyncio: right ones, and wrong ones named by their defect."""
 
 import asyncio
+import random
 import threading
 import time
 
@@ -12,7 +13,7 @@ from std_msgs.msg import Empty, String
 from grader.exercises.delivery import shelf_of
 
 PARTS = ("Shelves", "spinning", "in_event_loop", "AwaitsInTheCallback", "ForgetsAwait", "NewestLabel",
-         "CancelsTheLast", "OtherTopic", "NoLabels")  # fmt: skip
+         "CancelsTheLast", "OtherTopic", "NoLabels", "CopiesTheFormula")  # fmt: skip
 
 
 class Shelves(Node):
@@ -248,3 +249,19 @@ class NoLabels(Shelves):
 
 
 no_labels = in_event_loop(NoLabels)
+
+
+class CopiesTheFormula(Shelves):
+    """Knows how the database draws a shelf, but not the seed."""
+
+    def answer_later(self, label):
+        draw = random.Random(f"shelf 1 {label}")
+        seconds = round(random.Random(f"time 1 {label}").uniform(0.6, 1.4), 2)
+        shelf = f"{draw.choice('ABCDEFGH')}{draw.randint(1, 9)}"
+        timer = self.create_timer(seconds, lambda: (timer.cancel(), self.publish(label, shelf)))
+
+    def on_label(self, message):
+        self.answer_later(message.data)
+
+
+copies_the_formula = in_event_loop(CopiesTheFormula)
