@@ -1,7 +1,8 @@
 """What is evidence: what the world, the robot and our nodes did, and what a student's program did to them.
 
 Messages of a student's program on a topic that another program publishes on, and calls and goals between a
-student's own nodes, are staged: checks never see them.
+student's own nodes, are staged: checks never see them. Nor do they see a log line that is too long to be an
+answer: it could have all answers in it.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from dataclasses import replace
 
 from grader.diagnosis.owners import KINDS, owned
 from sim.evidence import Call, Goal, Recording
+
+LONGEST_LINE = 400  # characters
 
 
 def evidence_of(recording: Recording) -> Recording:
@@ -27,6 +30,7 @@ def evidence_of(recording: Recording) -> Recording:
         ],
         calls=[call for call in recording.calls if not _among_themselves(call)],
         goals=[goal for goal in recording.goals if not _among_themselves(goal)],
+        logs=[line for line in recording.logs if line.from_course or len(line.text) <= LONGEST_LINE],
         graph=replace(recording.graph, endpoints=ends),
     )
 

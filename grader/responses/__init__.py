@@ -4,7 +4,7 @@ A stimulus is a message, request or goal that a program of the course sends. The
 student's programs publish within its window. Checks compare the two, and raise `Missed` if they differ.
 """
 
-from grader.responses.comparison import listed, matches, same, text_of
+from grader.responses.comparison import listed, matches, numbers_in, same, states, text_of
 from grader.responses.speeds import Speed, closest, require_standing, speeds, top_speed
 from grader.responses.stimuli import (
     Stimuli,
@@ -18,5 +18,6 @@ from grader.responses.window import EDGE, Window
 
 __all__ = [
     "EDGE", "Speed", "Stimuli", "Stimulus", "Window", "closest", "from_course", "from_student", "last_before",
-    "listed", "matches", "requests_from_course", "require_standing", "same", "speeds", "text_of", "top_speed",
+    "listed", "matches", "numbers_in", "requests_from_course", "require_standing", "same", "speeds", "states",
+    "text_of", "top_speed",
 ]

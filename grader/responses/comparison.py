@@ -1,8 +1,13 @@
 """Compares numbers and series of numbers, and writes them as score pages do."""
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
+
+from grader.geometry.near import is_near
+
+MOST_NUMBERS = 5  # in a text that states one
 
 
 def same(value: Any, wanted: Any, tolerance: float = 1e-6) -> bool:
@@ -15,7 +20,19 @@ def same(value: Any, wanted: Any, tolerance: float = 1e-6) -> bool:
     if isinstance(wanted, Sequence):
         pairs = zip(value, wanted, strict=False)
         return len(value) == len(wanted) and all(same(a, b, tolerance) for a, b in pairs)
-    return abs(value - wanted) <= tolerance
+    return is_near(value, wanted, tolerance)
+
+
+def numbers_in(text: str) -> list[float]:
+    """Return the numbers in a text."""
+    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+
+
+def states(text: str, *wanted: float, tolerance: float = 0.0) -> bool:
+    """Return whether a text states one of these numbers, and not so many others that it states nothing."""
+    numbers = numbers_in(text)
+    near = (is_near(number, right, tolerance) for number in numbers for right in wanted)
+    return len(numbers) <= MOST_NUMBERS and any(near)
 
 
 def text_of(value: Any) -> str:

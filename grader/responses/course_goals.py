@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 from grader.checks.actions import serves_action, state
@@ -68,11 +67,6 @@ def is_succeeded(goal: Goal) -> None:
 def lines(run: Recording, level: str = "") -> list[str]:
     """Return what the student's programs logged, at one level or at all."""
     return [line.text for line in run.logs if level in ("", line.level) and not line.from_course]
-
-
-def numbers_in(text: str) -> list[float]:
-    """Return the numbers in a text."""
-    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
 
 
 def quoted(texts: list[str]) -> str:

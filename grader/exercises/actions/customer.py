@@ -3,11 +3,12 @@
 from grader.checks import Missed, hinting, sends_goals
 from grader.companions.action_servers import BusyFibonacci, LateFibonacci
 from grader.exercise import Exercise, Scenario
-from grader.responses import Window
-from grader.responses.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, numbers_in, quoted
+from grader.responses import Window, numbers_in
+from grader.responses.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, quoted
 from sim.evidence import Goal, Recording
 
 SOON = 0.3  # seconds from what a client receives to its log line
+FURTHER = 2  # numbers in a line beside those of a sequence, such as a count
 
 customer = Exercise("customer", "A client that receives feedback", scenarios=[
     Scenario(seconds=10, seed=1, companions=[LateFibonacci], name="late"),
@@ -35,9 +36,11 @@ def logs_the_progress(run: Recording, goal: Goal) -> None:
     for row in goal.feedback:
         newest, soon = row.message.sequence[-1], Window.after(row.stamp, SOON)
         texts = lines(run.during(soon.begin, soon.end), "INFO")
-        if not any(newest in numbers_in(text) for text in texts):
+        if not any(_tells(text, newest, len(row.message.sequence)) for text in texts):
             hint = ("send_goal_async(goal, feedback_callback=self.on_feedback); in it the numbers are in "
                     "msg.feedback.sequence, and [-1] is the newest.")
+            if any(newest in numbers_in(text) for text in texts):
+                hint = "A line with this many numbers doesn't say which one is the newest: log that one."
             raise Missed(f"an info line with {newest} at {row.stamp:.3g} s", quoted(texts), hint)
 
 
@@ -70,7 +73,14 @@ def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
         raise Missed("no such warning, because the goal was accepted", f"“{rejected[0]}”", hint)
 
 
+def _tells(text: str, newest: int, length: int) -> bool:
+    """Whether a text has the newest number, and hardly more than a sequence that is this long."""
+    numbers = numbers_in(text)
+    return newest in numbers and len(numbers) <= length + FURTHER
+
+
 def _holds(text: str, numbers: list[int]) -> bool:
-    """Whether a text has these numbers one after the other."""
-    found = numbers_in(text)
-    return any(found[begin : begin + len(numbers)] == numbers for begin in range(len(found)))
+    """Whether a text has these numbers one after the other, and hardly any others."""
+    found, length = numbers_in(text), len(numbers)
+    few = len(found) <= length + FURTHER
+    return few and any(found[begin : begin + length] == numbers for begin in range(FURTHER + 1))

@@ -11,8 +11,9 @@ from grader.checks.actions import state
 from grader.checks.topics import longest_pause
 from grader.companions.goal_senders import Captain
 from grader.exercise import Exercise
-from grader.responses import same
-from grader.responses.course_goals import SPIN, numbers_in, offered, picked
+from grader.geometry.near import is_near
+from grader.responses import same, states
+from grader.responses.course_goals import SPIN, offered, picked
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 
 NEAR = 0.2  # radians
@@ -32,9 +33,10 @@ def offers_to_turn(run: Recording) -> None:
 
 @turn.check(6, after=offers_to_turn, guess={
     "The angle from the previous goal is still there: set self.turned = 0.0 at the beginning of execute.":
-        lambda run, goal, turned: any(abs(angle) > 0.3 for angle in _angles(goal)[:1]),
+        lambda run, goal, turned: any(not is_near(angle, 0.0, 0.3) for angle in _angles(goal)[:1]),
     "It stopped far too early: are all angles in radians? The robot's and the goal's are.":
-        lambda run, goal, turned: any(abs(a) > 5 * abs(turned) > 0.05 for a in _angles(goal)[-1:]),
+        lambda run, goal, turned: not is_near(turned, 0.0, 0.01)
+        and any(not is_near(angle, 0.0, 5 * abs(turned)) for angle in _angles(goal)[-1:]),
     "The robot hasn't turned: publish a Twist with angular.z on every pass through the loop.":
         lambda run, goal, turned: abs(turned) < 0.05 and goal.status == "succeeded",
     "It turned the wrong way: a negative target_yaw is a turn to the right, and needs a negative angular.z.":
@@ -50,7 +52,7 @@ def offers_to_turn(run: Recording) -> None:
     "It never stopped turning. At pi the yaw jumps to -pi: add small steps to self.turned, "
     "each one math.remainder(yaw - self.yaw, math.tau).": lambda run, goal, turned: not goal.over,
     "It kept turning past its goal: publish a Twist() of zeros when it has arrived, and turn slowly.":
-        lambda run, goal, turned: abs(turned) - abs(goal.request.target_yaw) > 0.25,
+        lambda run, goal, turned: not is_near(turned, 0.0, abs(goal.request.target_yaw) + 0.25),
     "self.turned is the sum of the small steps between /odom messages, starting from 0 for each goal. "
     "After each step on_odometry stores the yaw: self.yaw = yaw.": otherwise,
 })
@@ -60,7 +62,7 @@ def turns_by_the_angle(run: Recording) -> None:
     for number, goal in enumerate(goals):
         target = goal.request.target_yaw
         turned = _turned(run, goal)(math.inf if goal.ended is None else goal.ended + SETTLING)
-        if goal.status != "succeeded" or abs(turned - target) > NEAR:
+        if goal.status != "succeeded" or not is_near(turned, target, NEAR):
             expected = f"{_text(goal)} succeeded, the robot turned by {target:.2f} rad, within {NEAR:g}"
             saw = f"{state(goal)}; turned by {turned:.2f} rad"
             raise Missed(expected, saw, credit=number / 4, picture="path", about=(goal, turned))
@@ -110,11 +112,11 @@ def stops_when_canceled(run: Recording) -> Goal:
         expected = f"{_text(goal)} canceled within 0.5 s of {requested:.3g} s"
         guess = "In the loop: if goal_handle.is_cancel_requested, stop, canceled() and return."
         after = _turned(run, goal)
-        moves = abs(after(requested + 2.0) - after(requested + 0.8)) > 0.05
+        moves = not is_near(after(requested + 2.0), after(requested + 0.8), 0.05)
         raise Missed(expected, state(goal), guess=guess, unsafe=moves)
     turned_by = _turned(run, goal)
     moved = turned_by(requested + 2.0) - turned_by(requested + 0.8)
-    if abs(moved) > 0.05:
+    if not is_near(moved, 0.0, 0.05):
         expected = f"a robot that stands still 0.8 s after the cancel request at {requested:.3g} s"
         hint = "Canceled isn't stopped: publish a Twist() of zeros before you call canceled()."
         raise Missed(expected, f"it turned {abs(moved):.2f} rad further", hint, picture="path", unsafe=True)
@@ -126,7 +128,7 @@ def returns_how_far_it_came(run: Recording, goal: Goal) -> None:
     """The result of the canceled goal says in error_msg how far the robot came, in radians."""
     turned = _turned(run, goal)(goal.ended or math.inf)
     text = goal.result.error_msg if goal.result is not None else ""
-    if not any(abs(abs(number) - abs(turned)) < NEAR for number in numbers_in(text)):
+    if not states(text, turned, -turned, tolerance=NEAR):
         hint = 'return Spin.Result(error_msg=f"canceled after {self.turned:.2f} rad").'
         raise Missed(f"about {turned:.2f} rad in the error_msg of {_text(goal)}", f"“{text}”", hint)
 

@@ -1,7 +1,6 @@
 """A gyro that can be calibrated by a service."""
 
 import math
-import re
 from typing import NamedTuple
 
 from grader.checks import Missed, course_calls, offers, series, usual_mistake, wrong_response
@@ -9,7 +8,8 @@ from grader.checks.services import call_text, is_refusal, is_success
 from grader.companions.service_clients import READINGS, Technician
 from grader.companions.service_servers import RawGyro
 from grader.exercise import Exercise
-from grader.responses import Window, same
+from grader.geometry.near import is_near
+from grader.responses import Window, same, states
 from sim.evidence import Call, Recording, Seconds
 
 CALIBRATE, RAW, RATE = "/gyro/calibrate", "/gyro/raw", "/gyro/rate"
@@ -56,7 +56,7 @@ def gyro_reads_zero(run: Recording) -> None:
             expected = f"each reading of {RAW} minus the bias, after {call_text(it.call)}"
             raise Missed(expected, f"{it.unrelated:.3g} rad/s, which matches none of them", hint,
                          picture="topics")
-        if abs(it.rate) > 0.01:
+        if not is_near(it.rate, 0.0, 0.01):
             expected = f"a mean of 0 rad/s, within 0.01, in the second after {call_text(it.call)}"
             saw = f"{it.rate:.3g} rad/s"
             raise Missed(expected, saw, _bias_hint(it, first=number == 0), picture="topics")
@@ -71,8 +71,7 @@ def reports_the_bias(run: Recording) -> None:
             unchanged = is_refusal(it.call) and abs(it.used) < 0.01
             yes = "response.success is False until you set it: response.success = True."
             raise wrong_response(expected, it.call, ENOUGH if unchanged else yes)
-        numbers = [float(number) for number in re.findall(r"-?\d+\.\d+", it.call.response.message)]
-        if not any(abs(number - good) < 0.0015 for number in numbers for good in (it.bias, it.used)):
+        if not states(it.call.response.message, it.bias, it.used, tolerance=0.0015):
             guess = 'An f-string inserts the number: response.message = f"bias {self.bias:.3f} rad/s".'
             raise wrong_response(expected, it.call, guess)
 

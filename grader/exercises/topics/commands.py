@@ -30,13 +30,7 @@ def subscribes_to_commands(run: Recording) -> None:
 def obeys(run: Recording) -> None:
     """`stand`, `walk` and `stop` are answered at info level with standing, walking or stopping."""
     _are_answered(run, lambda row: DOING[row.message.data], "INFO", where=_is_command)
-    sent = list(filter(_is_command, run.messages(COMMAND)))
-    wrong = [(row, line) for row in sent if (line := _first_contradiction(run, row, "INFO"))]
-    if len(wrong) > len(sent) / 2:
-        row, line = wrong[0]
-        expected = f"only “{DOING[row.message.data]}” after “{row.message.data}”"
-        hint = "Answering everything answers nothing. With if, elif, else exactly one branch runs."
-        raise Missed(expected, f"“{line.text[:60]}” at {row.stamp:.3g} s", hint)
+    _requires_a_choice(run, "INFO")
 
 
 @commands.check(4, after=subscribes_to_commands, guess={
@@ -46,6 +40,7 @@ def obeys(run: Recording) -> None:
 def warns(run: Recording) -> None:
     """Any other word is answered with a warning that names the word."""
     _are_answered(run, lambda row: row.message.data, "WARN", where=lambda row: not _is_command(row))
+    _requires_a_choice(run, "WARN", "INFO")
 
 
 @commands.check(2, after=obeys)
@@ -57,6 +52,19 @@ def logs_nothing_else(run: Recording) -> None:
             expected = f"only {answer} after “{row.message.data}”"
             hint = "Compare whole words with ==, and use if, elif, else: then exactly one branch runs."
             raise Missed(expected, f"“{line.text}” ({line.level}) at {line.stamp:.3g} s", hint)
+
+
+def _requires_a_choice(run: Recording, *levels: str) -> None:
+    """Raise Missed where at each of these levels most commands get an answer that is not theirs."""
+    sent = list(filter(_is_command, run.messages(COMMAND)))
+    for level in levels:
+        wrong = [(row, line) for row in sent if (line := _first_contradiction(run, row, level))]
+        if len(wrong) <= len(sent) / 2:
+            return
+    row, line = wrong[0]
+    expected = f"only “{DOING[row.message.data]}” after “{row.message.data}”"
+    hint = "Answering everything answers nothing. With if, elif, else exactly one branch runs."
+    raise Missed(expected, f"“{line.text[:60]}” at {row.stamp:.3g} s", hint)
 
 
 def _are_answered(run: Recording, pattern: Any, level: str, where: Any) -> None:

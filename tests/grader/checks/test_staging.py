@@ -9,10 +9,10 @@ from std_srvs.srv import Trigger
 
 from grader import Exercise, Missed
 from grader.checks import calls, publishes
-from grader.checks.staging import evidence_of
+from grader.checks.staging import LONGEST_LINE, evidence_of
 from grader.diagnosis.owners import Intrusion, intrusions, two_owners
 from sim import run
-from sim.evidence import Call
+from sim.evidence import Call, LogLine
 from tests.grader.recordings import recording
 from tests.students.engine import actions
 
@@ -131,3 +131,12 @@ def test_an_end_of_the_course_is_none_of_the_students():
     own = [end._replace(from_course=True) for end in asked.graph.endpoints]
     with pytest.raises(Missed, match="no client for it"):
         calls(dataclasses.replace(asked, graph=dataclasses.replace(asked.graph, endpoints=own)), "/ask")
+
+
+def test_a_line_that_could_have_all_answers_in_it_is_no_evidence():
+    lines = [
+        LogLine(1.0, "INFO", "talker", "x" * LONGEST_LINE),
+        LogLine(2.0, "INFO", "talker", "x" * (LONGEST_LINE + 1)),
+        LogLine(3.0, "INFO", "course", "x" * (LONGEST_LINE + 1), from_course=True),
+    ]
+    assert evidence_of(recording(logs=lines)).logs == [lines[0], lines[2]]

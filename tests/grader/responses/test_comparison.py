@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from grader.responses import listed, matches, same, text_of
+from grader.responses import listed, matches, numbers_in, same, states, text_of
 
 
 @pytest.mark.parametrize(
@@ -52,3 +52,13 @@ def test_series_match_as_far_as_the_shorter_one_goes():
 def test_an_empty_series_matches_nothing():
     assert not matches([], [1.0])
     assert not matches([1.0], [])
+
+
+def test_a_text_states_a_number_among_few():
+    assert numbers_in("from -1 to 2.5, 30 of them") == [-1.0, 2.5, 30.0]
+    assert numbers_in("bias -0.031 rad/s of 50 readings") == [-0.031, 50.0]
+    assert states("bias -0.031 rad/s of 50 readings", 1.0, -0.03, tolerance=0.002)
+    assert not states("bias -0.031 rad/s", 0.031, tolerance=0.002)
+    assert states("1 2 3 4 5", 5.0)
+    assert not states("1 2 3 4 5 6", 5.0)
+    assert not states("", 0.0)

@@ -12,7 +12,6 @@ from grader.responses.course_goals import (
     has_the_result,
     is_succeeded,
     lines,
-    numbers_in,
     offered,
     picked,
     quoted,
@@ -101,10 +100,6 @@ def test_lines_are_those_of_the_student_at_a_level_or_at_all():
 def test_the_first_three_lines_are_quoted():
     assert quoted(["a", "b", "c", "d"]) == "“a”, “b”, “c”"
     assert quoted([]) == "no line"
-
-
-def test_numbers_are_found_in_a_text():
-    assert numbers_in("from -1 to 2.5, 30 of them") == [-1.0, 2.5, 30.0]
 
 
 @pytest.mark.parametrize(

@@ -253,3 +253,15 @@ def main_that_logs_that_it_waits():
         node.get_logger().info("Waiting for /fibonacci")
     node.send()
     rclpy.spin(node)
+
+
+class LogsManyNumbers(Customer):
+    """Each line has all numbers, among them the right one."""
+
+    numbers = " ".join(map(str, range(50)))
+
+    def on_feedback(self, msg):
+        self.get_logger().info(f"progress: {self.numbers}")
+
+    def on_result(self, future):
+        self.get_logger().info(f"result: 0 1 1 2 3 5 8 13 {self.numbers}")

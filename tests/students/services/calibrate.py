@@ -228,3 +228,13 @@ class OneReadingTooMany(Gyro):
             response.message = f"only {len(self.readings)} of 50 readings so far"
             return response
         return super().calibrate(request, response)
+
+
+class ReportsEveryBias(Gyro):
+    """The bias is one of the numbers in the message."""
+
+    def calibrate(self, request, response):
+        response = super().calibrate(request, response)
+        if response.success:
+            response.message = " ".join(f"{0.003 * number:.3f}" for number in range(-67, 68))
+        return response

@@ -172,3 +172,20 @@ class CommandSender(Listener):
 
     def obey(self, msg):
         raise ZeroDivisionError("by a student")
+
+
+class WarnsOfEveryWord(Listener):
+    """Obeys, and warns of each word, known or not."""
+
+    def obey(self, msg):
+        super().obey(msg)
+        self.get_logger().warning(f"unknown: {msg.data}")
+
+
+class LogsAllAnswers(Listener):
+    """Whatever the word is, one long line has every answer."""
+
+    def obey(self, msg):
+        answers = "standing walking stopping " * 20
+        self.get_logger().info(answers)
+        self.get_logger().warning(f"{answers} unknown: {msg.data}")
