@@ -11,6 +11,7 @@ from grader.checks.ends import declared
 from grader.checks.fields import differing, message_text, read, words
 from grader.checks.no_data import no_data
 from grader.checks.topics import longest_pause
+from grader.geometry.near import is_near
 from sim.evidence import (
     CANCEL_REJECTED,
     CANCEL_REQUESTED,
@@ -152,7 +153,7 @@ def _keeps_rate(recording: Recording, goal: Goal, hz: float, tolerance: float) -
     edges = [goal.at("executing") or 0.0, *moments, end]
     pause, since = longest_pause(edges)
     measured = mean_rate(moments)
-    if measured and abs(measured - hz) > tolerance * hz:
+    if measured and not is_near(measured, hz, tolerance * hz):
         raise Missed(expected, f"{measured:.4g} Hz ({len(moments)} messages)")
     if pause > 2.5 / hz:
         raise Missed(expected, f"none for {pause:.3g} s, from {since:.3g} s on")

@@ -11,6 +11,7 @@ import numpy as np
 from grader.checks.check import Missed
 from grader.checks.topics import publishes, within
 from grader.checks.work import worked_until
+from grader.geometry.near import is_near
 from sim.evidence import Recording, Seconds
 
 EFFORT = "/cart_effort"
@@ -51,7 +52,7 @@ def fell_at(run: Recording) -> Seconds | None:
     angles = lean(run)
     if not angles:
         raise ValueError("this run has no pole: give the exercise a world that has one")
-    return next((stamp for stamp, angle in angles if abs(angle) > FALLEN), None)
+    return next((stamp for stamp, angle in angles if not is_near(angle, 0.0, FALLEN)), None)
 
 
 def stands(run: Recording) -> None:
@@ -80,7 +81,7 @@ def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float
 
     Raises Missed where it takes longer than `seconds`.
     """
-    away = [stamp for stamp, x in places(run) if abs(x - target) > tolerance]
+    away = [stamp for stamp, x in places(run) if not is_near(x, target, tolerance)]
     took = away[-1] - run.begin if away else 0.0
     if took > seconds:
         end, x = places(run)[-1]
@@ -169,9 +170,9 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
             "in the meantime. Publish one for each joint state, and let nothing block the loop."
         )
     end = run.world.machine.track_length / 2
-    if any(abs(x) > end - 0.01 for stamp, x in places(run) if stamp <= fell):
+    if any(not is_near(x, 0.0, end - 0.01) for stamp, x in places(run) if stamp <= fell):
         rolled = "The cart rolled to the end of the track, which stopped it."
         depends = "The effort has to depend on its position, too."
         return f"{rolled} {PLACE_TURNED if _place_is_turned(run, fell) else depends}"
-    swings = {angle > 0 for stamp, angle in lean(run) if stamp < fell and abs(angle) > 0.02}
+    swings = {angle > 0 for stamp, angle in lean(run) if stamp < fell and not is_near(angle, 0.0, 0.02)}
     return TOO_WEAK if len(swings) == 1 else SWINGS

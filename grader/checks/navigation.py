@@ -8,6 +8,7 @@ import numpy as np
 
 from grader.checks.check import Missed
 from grader.geometry.ground import ground, shortest
+from grader.geometry.near import is_near
 from grader.geometry.occupancy import cells_of
 from sim.evidence import Goal, Message, Pose, Recording, Seconds
 from sim.nanoseconds import in_seconds
@@ -47,7 +48,7 @@ def feedback_faults(run: Recording, goal: Goal) -> list[Fault]:
 def _wrong_pose(run: Recording, goal: Goal) -> Fault | None:
     for row in _before_a_touch(run, goal):
         place, true = row.message.current_pose.pose.position, run.pose_at(row.stamp)
-        if not math.dist((place.x, place.y), (true.x, true.y)) <= 0.2:  # so that NaN fails
+        if not is_near((place.x, place.y), (true.x, true.y), 0.2):
             expected = f"current_pose at ({true.x:.2f}, {true.y:.2f}) m, at {row.stamp:.3g} s"
             hint = "current_pose is where the robot is in the map, not in its odometry: self.pose."
             return expected, f"({place.x:.2f}, {place.y:.2f}) m", hint

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from grader.checks.check import Missed
+from grader.geometry.near import is_near
 from sim.evidence import Pose, Recording, Seconds
 
 NEAR = 0.6  # m from the middle of a person, a box or a robot to a point of it
@@ -49,7 +50,7 @@ def near_something(
         for track in recording.tracks.values()
         for pose in _lately(track, stamp)
     }
-    lost = [point for point in points if all(math.dist(point, place) > NEAR for place in there)]
+    lost = [point for point in points if not any(is_near(point, place, NEAR) for place in there)]
     if len(lost) > max(FEW, PART * len(points)):
         x, y = lost[0]
         saw = f"{len(lost)} of {len(points)} points at {stamp:.3g} s near nothing, such as {x:.2f}, {y:.2f}"

@@ -11,6 +11,7 @@ from typing import Any
 from grader.checks.check import Missed
 from grader.checks.ends import declared
 from grader.checks.work import worked_until
+from grader.geometry.near import is_near
 from sim.evidence import Endpoint, Message, Recording, Seconds
 from sim.evidence import rate as mean_rate
 
@@ -47,7 +48,7 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     expected = f"{hz:.4g} Hz on {topic}, within {tolerance:.0%}"
     _can_be_received(recording, topic, expected)
     measured = mean_rate(stamps)
-    if abs(measured - hz) > tolerance * hz:
+    if not is_near(measured, hz, tolerance * hz):
         saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
         raise Missed(expected, saw, _rate_hint(recording, measured, hz), picture="topics")
     pause, since = longest_pause([recording.started_at, *stamps, worked_until(recording)])

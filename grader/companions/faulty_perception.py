@@ -15,6 +15,7 @@ from sensor_msgs.msg import LaserScan
 from grader.companions.map_messages import flat, listed, stamped
 from grader.geometry import Point, Pose2D
 from grader.geometry.floor import points_of, thinned
+from grader.geometry.near import is_near
 from grader.worlds.warehouses import floor_of
 from sim.evidence import Seconds, since_start
 from sim.world.clearance import clearance
@@ -101,7 +102,7 @@ class FaultyPerception(Localized):
             if now - self.begin >= LASTS:
                 self.fault, self.driven = "", 0
             return
-        alone = all(math.dist(self.pose[:2], person) > ALONE for person in people)
+        alone = not any(is_near(self.pose[:2], person, ALONE) for person in people)
         self.driven = self.driven + 1 if alone and self.speed > FAST else 0
         if self.faults and self.driven >= DRIVES * 10:
             self.fault, self.begin = self.faults.pop(), now
@@ -121,7 +122,7 @@ class GoalCycle(Localized):
         """Return a place at a shelf that is neither here nor at the other end."""
         places = [pickup[:2] for pickup in self.world.warehouse.pickups]
         places.sort(key=lambda place: math.dist(here, place))
-        return self.draw.choice([place for place in places if math.dist(here, place) > 1.0][:2])
+        return self.draw.choice([place for place in places if not is_near(here, place, 1.0)][:2])
 
     def publish_goal(self) -> None:
         """Publish where to go now."""

@@ -12,6 +12,7 @@ from std_msgs.msg import Float64, String
 
 from grader.companions.qos import LATCHED
 from grader.companions.schedule import Schedule
+from grader.geometry.near import is_near
 from sim.world.machines import JointModel, urdf
 from sim.world.machines.urdf import EFFORT
 
@@ -88,7 +89,7 @@ class Lift(Node):
         gap = self.target - self.position
         ahead = math.copysign(1.0, gap)
         self.velocity, self.effort = 0.0, HOLDING
-        if abs(gap) > BACKLASH:
+        if not is_near(gap, 0.0, BACKLASH):
             self.effort = ahead * EFFORT
             if self.starting:
                 self.starting -= 1

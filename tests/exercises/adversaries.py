@@ -6,6 +6,7 @@ come. Each adversary tries one way to get points without doing the work, in a pr
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -14,8 +15,9 @@ from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.node import Node
 
 from sim.evidence import Endpoint, LogLine, since_start
-from sim.ros.messages.codec import encode, message_class
+from sim.ros.messages.codec import encode, message_class, type_name
 from tests.exercises.cards import Card, log, profile
+from tests.exercises.changed_recordings import FLOATS, leaves, put
 
 TICK = 0.1  # seconds
 NUMBERS = range(-180, 181)
@@ -101,6 +103,31 @@ class Stages(Replays):
     from_course = (False, True)
 
 
+class SendsNan(Replays):
+    """As Replays; and each decimal number that it publishes or responds with is not a number."""
+
+    def begin(self) -> None:
+        super().begin()
+        self.rows = [
+            row if isinstance(row, LogLine) else row._replace(raw=encode(_with_nan(row.message)))
+            for row in self.rows
+        ]
+
+    def serve(self, request: Any, response: Any) -> Any:
+        return _with_nan(response)
+
+    def result_of(self, action: str, goal: Any) -> Any:
+        return _with_nan(message_class(self.card.ends("action server")[action].type).Result())
+
+
+def _with_nan(message: Any) -> Any:
+    """The message with NaN in each field for a decimal number."""
+    for path, kind in leaves(type_name(type(message))):
+        if kind in FLOATS:
+            put(message, path, math.nan)
+    return message
+
+
 class Freezes(Stub):
     """Holds the world still on the course's topics, and answers what was right at first, all the time."""
 
@@ -124,15 +151,31 @@ class Freezes(Stub):
 
 
 class SaysEverything(Stub):
-    """Logs all words and numbers and all lines of the public run, and publishes all values, all the time."""
+    """Logs all words and numbers and all lines of the public run, and publishes all values, all the time.
+
+    It agrees to each request, and each text of its responses and results has all words and numbers, too.
+    """
 
     def begin(self) -> None:
         lines = list(dict.fromkeys((line.level, line.text) for line in self.card.lines))[:40]
-        words = " ".join([*dict.fromkeys(text for _, text in lines), *map(str, NUMBERS)])
-        self.lines = [*lines, *((level, words) for level in LEVELS)]
+        numbers = [*map(str, NUMBERS), *(f"{0.001 * number:.3f}" for number in range(-200, 201))]
+        self.words = " ".join([*dict.fromkeys(text for _, text in lines), *numbers])
+        self.lines = [*lines, *((level, self.words) for level in LEVELS)]
         self.values = [(name, raw) for name, end in self.card.ends("publisher").items()
                        for raw in self.all_values(name, end)]  # fmt: skip
         self.create_timer(0.25, self.say)
+
+    def serve(self, request: Any, response: Any) -> Any:
+        return self.with_all_words(response)
+
+    def result_of(self, action: str, goal: Any) -> Any:
+        return self.with_all_words(message_class(self.card.ends("action server")[action].type).Result())
+
+    def with_all_words(self, message: Any) -> Any:
+        for field, kind in message.get_fields_and_field_types().items():
+            if kind in ("boolean", "string"):
+                setattr(message, field, True if kind == "boolean" else self.words)
+        return message
 
     def all_values(self, topic: str, end: Endpoint) -> Iterator[bytes]:
         reported = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
@@ -239,6 +282,7 @@ KINDS: dict[str, type[Stub]] = {
     "stages its world": Stages,
     "freezes its world": Freezes,
     "says everything": SaysEverything,
+    "sends NaN": SendsNan,
     "answers itself": AnswersItself,
     "answers constantly": Constant,
     "answers by chance": Guesses,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Iterator, Sequence
 from unittest import mock
 
 from grader import Exercise, Score
@@ -47,17 +48,24 @@ def earned(exercise: Exercise, kind: str, program: object) -> Score:
     return score
 
 
+def named_exercises(words: Sequence[str] = ()) -> Iterator[tuple[str, str, Exercise]]:
+    """Each exercise with its topic and its name in its assignment; only those that are named, if any is."""
+    for called, exercise in exercises().items():
+        topic = exercise.checks[0].function.__module__.split(".")[2]
+        names = vars(importlib.import_module(f"grader.exercises.{topic}")).items()
+        if not words or called in words:
+            yield topic, next(name for name, found in names if found is exercise), exercise
+
+
 def main(words: list[str]) -> None:
     """Print the table."""
     print(f"{'':20}{'points':>8}{'there':>8}", *(f"{kind:>20}" for kind in BY_CHANCE))
-    for name, exercise in exercises().items():
-        topic = exercise.checks[0].function.__module__.split(".")[2]
-        if exercise.package or (words and name not in words):
+    for topic, name, exercise in named_exercises(words):
+        if exercise.package:
             continue
-        names = vars(importlib.import_module(f"grader.exercises.{topic}")).items()
-        card = card_of(topic, next(there for there, found in names if found is exercise))
+        card = card_of(topic, name)
         shares = [earned(exercise, kind, adversary(kind, card)) / exercise.points for kind in BY_CHANCE]
-        begin = f"{name:20}{exercise.points:8g}{for_being_there(exercise):8g}"
+        begin = f"{exercise.name:20}{exercise.points:8g}{for_being_there(exercise):8g}"
         print(begin, *(f"{100 * share:18.0f} %" for share in shares), flush=True)
 
 

@@ -1,15 +1,16 @@
-"""Three more ways to get points without the work: python -m tests.exercises.more_adversaries [EXERCISE ...]
+"""More ways to get points without the work: python -m tests.exercises.more_adversaries [EXERCISE ...]
 
-Publishing everything everywhere, receiving one message and no more, and asking about everything. Run as a
-program, it prints what they earn in each exercise, beside its points and what is given for being there.
+Publishing everything everywhere, receiving one message and no more, asking about everything, and a package
+whose functions do nothing. Run as a program, it prints what these and the other adversaries earn in each
+exercise, beside its points and what is given for being there.
 """
 
 from __future__ import annotations
 
+import ast
 import collections
 import copy
 import dataclasses
-import importlib
 import itertools
 import sys
 from typing import Any
@@ -18,20 +19,21 @@ import rclpy
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
-from grader.catalog import exercises
 from sim import Process
 from sim.ros.messages.codec import message_class
-from tests.exercises.adversaries import Replays, Stub
+from tests.exercises.adversaries import KINDS, Replays, Stub, adversary
 from tests.exercises.at_times import _team
+from tests.exercises.builds import kept_builds
 from tests.exercises.cards import Card, log, profile
-from tests.exercises.chance import card_of, earned, for_being_there
+from tests.exercises.chance import card_of, earned, for_being_there, named_exercises
 from tests.exercises.score_tables import students
 from tests.exercises.seeds import right_nodes
 from tests.students.teams import Team
+from tests.students.workspaces import Workspace
 
 STREAM = 5  # messages on a topic, from which on receiving one of them is too few
 GRID = [0.25 * step for step in range(-24, 25)]  # m
-LISTENS_ONCE = "listens once"
+LISTENS_ONCE, HOLLOW = "listens once", "functions that do nothing"
 
 
 class PublishesEverywhere(Stub):
@@ -148,6 +150,27 @@ def _once(node: Node, subscription: Subscription, callback: Any) -> Any:
     return receive
 
 
+class _Hollow(ast.NodeTransformer):
+    """Leaves a function its name, and nothing to do."""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
+        node.body = [ast.Pass()]
+        return node
+
+    visit_AsyncFunctionDef = visit_FunctionDef
+
+
+def hollow(workspace: Workspace) -> Workspace:
+    """A package of which only names are left: those of files, imports, classes and functions."""
+
+    def emptied(path: str, text: str | bytes) -> str | bytes:
+        if not path.endswith(".py") or path.endswith("/setup.py"):
+            return text
+        return ast.unparse(_Hollow().visit(ast.parse(text)))
+
+    return Workspace(__name__, {path: emptied(path, text) for path, text in workspace.files.items()})
+
+
 MORE_KINDS: dict[str, type[Stub]] = {
     "publishes everywhere": PublishesEverywhere,
     "asks everything": AsksEverything,
@@ -167,20 +190,22 @@ def more_adversary(kind: str, topic: str, name: str) -> Any:
 
 def main(words: list[str]) -> None:
     """Print the table."""
-    kinds = [*MORE_KINDS, LISTENS_ONCE]
-    print(f"{'':20}{'points':>8}{'there':>8}", *(f"{kind:>22}" for kind in kinds))
-    for name, exercise in exercises().items():
-        topic = exercise.checks[0].function.__module__.split(".")[2]
-        if exercise.package or (words and name not in words):
-            continue
-        names = vars(importlib.import_module(f"grader.exercises.{topic}")).items()
-        own = next(there for there, found in names if found is exercise)
-        scores = []
-        for kind in kinds:
-            program = more_adversary(kind, topic, own)
-            scores.append("-" if program is None else f"{float(earned(exercise, kind, program)):g}")
-        begin = f"{name:20}{exercise.points:8g}{for_being_there(exercise):8g}"
-        print(begin, *(f"{score:>22}" for score in scores), flush=True)
+    kinds = [*KINDS, *MORE_KINDS, LISTENS_ONCE, HOLLOW]
+    print(f"{'':20}{'points':>8}{'there':>8}", *(f"{kind:>24}" for kind in kinds))
+    with kept_builds():
+        for topic, own, exercise in named_exercises(words):
+            scores = []
+            for kind in kinds:
+                program = None
+                if kind == HOLLOW and exercise.package:
+                    program = hollow(students(topic, own)[right_nodes(topic, own)[0]])
+                elif kind in KINDS:
+                    program = adversary(kind, card_of(topic, own))
+                elif kind != HOLLOW and not exercise.package:
+                    program = more_adversary(kind, topic, own)
+                scores.append("-" if program is None else f"{float(earned(exercise, kind, program)):g}")
+            begin = f"{exercise.name:20}{exercise.points:8g}{for_being_there(exercise):8g}"
+            print(begin, *(f"{score:>24}" for score in scores), flush=True)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from tests.exercises.adversaries import KINDS, adversary
 from tests.exercises.assignment import Assignment, is_long
 from tests.exercises.at_times import spun_until
 from tests.exercises.chance import BY_LOT, card_of, earned, for_being_there
-from tests.exercises.more_adversaries import LISTENS_ONCE, MORE_KINDS, more_adversary
+from tests.exercises.more_adversaries import LISTENS_ONCE, MORE_KINDS, hollow, more_adversary
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
 from tests.exercises.test_control import TestControl as Control
@@ -117,6 +117,22 @@ def test_who_publishes_or_asks_everything_or_listens_once_gets_no_more_than_chan
     there, score = for_being_there(exercise), earned(exercise, kind, program)
     chance = there + LUCK * (exercise.points - there)
     assert score <= max(chance, RIGHT_ANYWAY.get((exercise.name, kind), 0)), score.text
+
+
+RIGHT_PACKAGES = {name: students("packages", name)[Packages.right(name)[0]] for name in Packages.names}
+HOLLOW = [
+    pytest.param(name, workspace, id=name)
+    for name, right in RIGHT_PACKAGES.items()
+    if (workspace := hollow(right)).files != right.files
+]
+
+
+@pytest.mark.soak  # each is built
+@pytest.mark.parametrize(("name", "workspace"), HOLLOW)
+def test_a_package_whose_functions_do_nothing_earns_next_to_nothing(name, workspace):
+    exercise = Packages.judge(name)
+    score = earned(exercise, "", workspace)
+    assert score <= NOTHING * exercise.points, score.text
 
 
 @pytest.mark.parametrize(("assignment", "name", "kind"), rows(["ends early"]))

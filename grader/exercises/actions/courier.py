@@ -3,6 +3,7 @@
 from grader.checks import Missed, hinting, sends_goals
 from grader.companions.action_servers import CarpetServer, DriveServer
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from grader.responses import same
 from grader.responses.course_goals import DRIVE, lines, quoted
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
@@ -36,7 +37,7 @@ def gives_up(run: Recording, goal: Goal) -> None:
         hint = ("self.timer = self.create_timer(8.0, self.give_up) in on_response; there "
                 "cancel_goal_async().")
         raise Missed(expected, "none", hint)
-    if abs(cancels[0] - due) > 0.6:
+    if not is_near(cancels[0], due, 0.6):
         hint = ("The 8 s begin in on_response: self.create_timer(8.0, self.give_up), with no parentheses "
                 "after give_up.")
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)

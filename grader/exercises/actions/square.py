@@ -6,6 +6,7 @@ import math
 from grader.checks import Missed, arrives, hinting, passes
 from grader.companions.action_servers import DriveServer, SpinServer
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import EDGE
 from grader.responses.course_goals import DRIVE, SPIN
 from sim.evidence import Goal, Recording
@@ -71,7 +72,7 @@ def _goals(run: Recording) -> list[Goal]:
 
 def _hint(run: Recording) -> str:
     angles = [goal.request.target_yaw for goal in run.goals_of(SPIN)]
-    if any(abs(angle) > math.tau for angle in angles):
+    if not all(is_near(angle, 0.0, math.tau) for angle in angles):
         return f"target_yaw was {max(angles, key=abs):.3g}: its unit is rad; a quarter turn is math.pi / 2."
     if any(angle < 0 for angle in angles):
         return "The robot turned right: a positive target_yaw turns left."
@@ -79,7 +80,7 @@ def _hint(run: Recording) -> str:
     refused = next((goal for goal in drives if goal.status == "aborted"), None)
     if refused:
         return f"A drive was aborted: {refused.result.error_msg}."
-    if any(abs(goal.request.target.x - 1.0) > 0.01 for goal in drives):
+    if not all(is_near(goal.request.target.x, 1.0, 0.01) for goal in drives):
         return "A side is 1 m: target.x = 1.0."
     return _no_quarter(run)
 
@@ -87,5 +88,5 @@ def _hint(run: Recording) -> str:
 def _no_quarter(run: Recording) -> str:
     """What to say where a turn is by another angle than a quarter turn; "" where none is."""
     angles = (goal.request.target_yaw for goal in run.goals_of(SPIN))
-    other = next((angle for angle in angles if abs(angle - math.pi / 2) > 0.01), None)
+    other = next((angle for angle in angles if not is_near(angle, math.pi / 2, 0.01)), None)
     return "" if other is None else f"target_yaw was {other:.3g}: a quarter turn is math.pi / 2, 1.5708 rad."

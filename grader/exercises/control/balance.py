@@ -3,6 +3,7 @@
 from grader.checks import Missed, fell_at, hinting, keeps_deadline, otherwise, publishes, stands
 from grader.checks.control import EFFORT
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from grader.responses import same
 from grader.worlds.carts import hopeless_cart, long_track
 from sim.evidence import Recording
@@ -49,7 +50,7 @@ def counts_while_it_stands(run: Recording) -> None:
     end = fell_at(run) or run.ended.stamp
     sent = [row for row in publishes(run, STOOD, FLOAT) if row.stamp < end]
     for row in sent:
-        if abs(row.message.data - row.stamp) > EXACT:
+        if not is_near(row.message.data, row.stamp, EXACT):
             expected = f"{row.stamp:.3g} s on {STOOD} at {row.stamp:.3g} s"
             raise Missed(expected, f"{row.message.data:.3g}", about=(row.message.data, row.stamp))
     if len(sent) < 0.9 * RATE * end:

@@ -6,6 +6,7 @@ import math
 from grader.checks import Missed, hinting, keeps_clear, otherwise, publishes, within
 from grader.companions.slope import MOST, Slope
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import EDGE, Window, from_course, last_before, matches, same
 from grader.worlds.frame_worlds import ramp
 from sim.evidence import Recording, Seconds
@@ -98,7 +99,7 @@ def stands_at_the_distance(run: Recording) -> None:
                 "to the end.")
         raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
     worst, _ = max(_distances(run, begin), key=lambda row: abs(row[0] - TARGET))
-    if abs(worst - TARGET) > NEAR:
+    if not is_near(worst, TARGET, NEAR):
         expected = f"{TARGET:g} m, within {NEAR * 100:g} cm"
         raise Missed(expected, f"{worst:.2f} m", about=(worst,), picture="path")
 

@@ -3,6 +3,7 @@
 from grader.checks import Missed, hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
 from grader.checks.control import EFFORT
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.worlds.carts import pushed_cart
 from sim.evidence import Recording
 
@@ -47,7 +48,7 @@ def stands_quietly(run: Recording) -> None:
     for begin, end in _after_pushes(run):
         rest = lean(run.during(begin + SOON, end))
         stamp, angle = max(rest, key=lambda row: abs(row[1]), default=(begin, 0.0))
-        if abs(angle) > STEADY:
+        if not is_near(angle, 0.0, STEADY):
             hint = "It swings for too long: more D damps it, and so does a larger gain on the cart's speed."
             raise Missed(f"at most {STEADY:g} rad", f"{angle:.2g} rad at {stamp:.3g} s", hint)
 

@@ -1,12 +1,12 @@
 """A state machine: fetch, deliver, charge, rest."""
 
-import math
 from typing import Any
 
 from grader.checks import Missed, publishes, rate
 from grader.companions.scripted_orders import Situation, desk, situations
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
+from grader.geometry.near import is_near
 from grader.responses import Window, from_student
 from sim.evidence import Message, Recording, Seconds, since_start
 
@@ -92,7 +92,7 @@ def _compare(run: Recording, about: str, hint: str) -> None:
         places = _places(run, one)
         for state, goal in zip(states, goals, strict=False):
             place = Pose2D.from_message(goal.message.pose)[:2]
-            if state.message.data != one.state or min(math.dist(place, each) for each in places) >= SAME:
+            if state.message.data != one.state or not any(is_near(place, each, SAME) for each in places):
                 saw = f"“{state.message.data}” and {_text(place)} at {goal.stamp:.3g} s"
                 raise Missed(expected, saw, hint, picture="topics")
 

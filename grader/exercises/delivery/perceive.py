@@ -225,7 +225,7 @@ def _is_seen(run: Recording, row: Message, lasting: Seconds) -> bool:
 def _boxes_in_view(run: Recording) -> list[Point]:
     here, world = run.world.start[:2], run.world
     boxes = [(track[0].x, track[0].y) for name, track in run.tracks.items() if name.startswith("box")]
-    return [box for box in boxes if math.dist(here, box) > CLOSE and in_view(world, here, box, FAR)]
+    return [box for box in boxes if CLOSE < math.dist(here, box) < FAR and in_view(world, here, box, FAR)]
 
 
 def _has(points: list[Point], there: Point) -> bool:

@@ -8,6 +8,7 @@ from grader.checks.frames import TF
 from grader.companions.transforms import localization
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Pose2D
+from grader.geometry.near import is_near
 from grader.responses import from_student, last_before
 from grader.worlds.frame_worlds import convoy, parked
 from sim.evidence import Recording, Seconds
@@ -86,7 +87,7 @@ def _looks_from_the_leader(run: Recording) -> bool:
         if robot and leader:
             there, here = Pose2D(*robot[1:]), Pose2D(*leader[1:])
             right, swapped = _side(there, here), _side(here, there)
-            if min(abs(right), abs(swapped)) > CLEAR and right * swapped < 0:
+            if not (is_near(right, 0.0, CLEAR) or is_near(swapped, 0.0, CLEAR)) and right * swapped < 0:
                 turns.append(row.message.angular.z * swapped)
     return len(turns) > 5 and sum(turn > 0 for turn in turns) > 0.8 * len(turns)
 

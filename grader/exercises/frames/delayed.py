@@ -1,12 +1,12 @@
 """Wait for transforms that come late, without blocking the callbacks that bring them."""
 
-import math
 
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.frames import Broadcast, broadcasts
 from grader.companions.moving_frames import SlowLocalization
 from grader.exercise import Exercise
 from grader.geometry import Point
+from grader.geometry.near import is_near
 from grader.responses import EDGE, Stimuli, Stimulus, last_before, same
 from sim.evidence import Message, Recording, Seconds, since_start
 
@@ -67,9 +67,9 @@ def _require_places(run: Recording, seen: list[Stimulus]) -> None:
         for answer in _answers(one)[:1]:
             point, frame = answer.message.point, answer.message.header.frame_id
             x, y = _point(min(_robot(run), key=lambda sent: abs(sent.measured - _measured(one.message))), one)
-            if frame != "map" or not math.dist((point.x, point.y), (x, y)) <= NEAR:
+            if frame != "map" or not is_near((point.x, point.y), (x, y), NEAR):
                 newest = last_before(_robot(run), one.stamp)
-                was_there = math.dist((point.x, point.y), _point(newest, one)) <= NEAR
+                was_there = is_near((point.x, point.y), _point(newest, one), NEAR)
                 expected = f"({x:.2f}, {y:.2f}) m in map, for the detection at {one.stamp:.3g} s"
                 saw = f"({point.x:.2f}, {point.y:.2f}) m in {frame or 'no frame'}"
                 hint = ("Time() gives the newest transform that has arrived, and that one is half a second "

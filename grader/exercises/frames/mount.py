@@ -6,6 +6,7 @@ from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
 from grader.companions.lidar_mount import Mechanic
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import from_course, same
 from sim.evidence import Recording
 
@@ -35,7 +36,7 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
         found, hint = sent[-1].pose, "translation.x is msg.x, and translation.y is msg.y."
         # A coordinate that is right, and not by chance as 0 is.
         pairs = (found.x, x), (found.y, y)
-        known = [abs(right) > 2 * NEAR and same(is_at, right, NEAR) for is_at, right in pairs]
+        known = [same(is_at, right, NEAR) and not is_near(right, 0.0, 2 * NEAR) for is_at, right in pairs]
         expected, saw = f"x {x:.2f} m, y {y:.2f} m", f"x {found.x:.2f} m, y {found.y:.2f} m"
         raise Missed(expected, saw, hint, credit=PART if any(known) else 0.0, measured=sent)
     return sent
@@ -43,7 +44,7 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
 
 @mount.check(5, after=puts_it_there, hints={
     f"z 0 and w 1 is no rotation at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
-    "theta is already in radians.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
+    "theta is already in radians.": lambda run, turn: abs(turn.z) < 0.05 and is_near(abs(turn.w), 1.0, 0.1),
     FULL_TURN: otherwise,
 })
 def turns_it(run: Recording, sent: list[Broadcast]) -> None:
@@ -54,7 +55,7 @@ def turns_it(run: Recording, sent: list[Broadcast]) -> None:
         saw = f"one of length {length:.2f}, which tf2 discards"
         raise Missed("a quaternion of length 1", saw, FULL_TURN)
     yaw = sent[-1].pose.yaw
-    if abs(math.remainder(yaw - theta, math.tau)) > NEAR:
+    if not is_near(math.remainder(yaw - theta, math.tau), 0.0, NEAR):
         raise Missed(f"yaw {theta:.2f} rad", f"yaw {yaw:.2f} rad", about=(turn,))
 
 

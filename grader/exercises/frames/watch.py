@@ -6,6 +6,7 @@ from grader.checks import Missed, named, publishes
 from grader.companions.tower_watcher import WAITING
 from grader.companions.transforms import localization
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from grader.worlds.frame_worlds import square
 from sim.evidence import Endpoint, Recording, Seconds
 
@@ -48,7 +49,7 @@ def faces_the_scout(run: Recording) -> None:
 def leaves_others_alone(run: Recording) -> None:
     """The other robot stays where it is."""
     for pose in run.path:
-        if math.dist(run.path[0][1:3], pose[1:3]) > STILL:
+        if not is_near(run.path[0][1:3], pose[1:3], STILL):
             hint = "That robot isn't yours: publish nothing on /cmd_vel."
             saw = f"it has moved by {pose.stamp:.3g} s"
             raise Missed("the other robot where it was", saw, hint, unsafe=True)

@@ -5,6 +5,7 @@ import itertools
 from grader.checks import Missed, otherwise, publishes, tip_at, tip_path
 from grader.companions.joint_targets import foreman
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import Window, from_course, listed, matches, same
 from grader.worlds.arms import joint_of
 from sim.evidence import Message, Recording, Seconds
@@ -35,7 +36,7 @@ def publishes_commands(run: Recording) -> None:
 
 @arrive.check(2, after=publishes_commands, hints={
     "The positions are already in radians, and so is /joint_commands: don't convert.":
-        lambda run, first: abs(first) > 3.2,
+        lambda run, first: not is_near(first, 0.0, 3.2),
     "Begin with the first: self.positions.pop(0) returns it, but pop() returns the last.":
         lambda run, first: any(same(first, other) for other in _positions(run)[1:]),
     "Publish the numbers from /positions unchanged; they are sent once, latched.": otherwise,

@@ -8,6 +8,7 @@ from grader.checks import Missed, answers, commands_within, otherwise, publishes
 from grader.checks.joints import JointLimits, described_limits
 from grader.companions.lift import JOINT, lift
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import Stimuli, Stimulus, Window, from_course, last_before, same
 from sim.evidence import Message, Recording, Seconds
 from sim.world.machines.urdf import EFFORT
@@ -36,7 +37,7 @@ def publishes_commands(run: Recording) -> None:
 
 @careful.check(4, after=publishes_commands, hints={
     "Positions and limits are all in radians: pass the number on unchanged.":
-        lambda run, request: request.responses and abs(request.values()[0]) > 3.2,
+        lambda run, request: request.responses and not is_near(request.values()[0], 0.0, 3.2),
     "A refusal isn't the end: return from the callback, and handle the next request as usual.":
         lambda run, request: _silent_since_a_refusal(run, request),
     "A limit itself is within the limits: compare with <=, not with <.":
@@ -154,7 +155,7 @@ def _states(run: Recording) -> list[tuple[Jam, bool]]:
     for row in from_course(run, "/joint_states"):
         index = list(row.message.name).index(JOINT)
         effort, velocity = row.message.effort[index], row.message.velocity[index]
-        pulling = abs(effort) >= EFFORT and abs(velocity) < STANDS
+        pulling = abs(effort) == EFFORT and abs(velocity) < STANDS
         found.append((Jam(row.stamp, row.message.position[index], effort), pulling))
     return found
 

@@ -1,18 +1,19 @@
 """A description in URDF, of which robot_state_publisher makes the frames of a camera."""
 
 import math
+import operator
 from collections.abc import Sequence
 from typing import Any
 from xml.etree import ElementTree
 
-import numpy as np
 from tf_transformations import quaternion_from_euler
 
 from grader.checks import Missed, otherwise, publishes
 from grader.checks.frames import Broadcast, broadcasts
 from grader.companions.pan_tilt_driver import LIMITS, pan_tilt_driver
 from grader.exercise import Exercise
-from grader.responses import from_course
+from grader.geometry.near import is_near
+from grader.responses import from_course, same
 from sim.evidence import Recording, since_start
 
 MOVING = {  # joint: its parent, its child, where it is on the parent (m), and its axis
@@ -46,7 +47,7 @@ def publishes_a_description(run: Recording) -> ElementTree.Element:
 
 @describe.check(2, after=publishes_a_description, hints={
     "A joint is at its `origin` on the parent, in meters: xyz=\"0.05 0 0.06\" is 5 cm forward and 6 cm up.":
-        lambda run, sent, place, turn: np.abs(np.subtract(_numbers(sent)[0], place)).max() > NEAR,
+        lambda run, sent, place, turn: not same(_numbers(sent)[0], place, NEAR),
     "The tilt joint turns about y, the axis to the left: <axis xyz=\"0 1 0\"/>. Without an axis it is x.":
         otherwise,
 }, guess="Names count: joints are called as on /joint_states, and have the parents and children of the task.")
@@ -71,7 +72,7 @@ def moves_with_its_joints(run: Recording, robot: ElementTree.Element) -> Element
 
 @describe.check(1, after=moves_with_its_joints, hints={
     "A camera that hangs upside down is rolled by half a turn, in radians: rpy=\"3.1416 0 0\".":
-        lambda run, sent, place, turn: np.abs(np.subtract(_numbers(sent)[0], place)).max() <= NEAR,
+        lambda run, sent, place, turn: same(_numbers(sent)[0], place, NEAR),
     "The fixed joint has an origin, too: xyz=\"0.04 0 0.02\" on tilt_link, in meters.": otherwise,
 }, guess="A joint of type fixed connects tilt_link, its parent, to camera, its child.")
 def mounts_the_camera(run: Recording, robot: ElementTree.Element) -> None:
@@ -88,12 +89,19 @@ def has_limits(run: Recording, robot: ElementTree.Element) -> None:
     limits = {joint.get("name"): joint.find("limit") for joint in robot.iterfind("joint[@type='revolute']")}
     for name, wanted in LIMITS.items():
         limit = limits.get(name)
-        found = None if limit is None else [float(limit.get(end, "0")) for end in ("lower", "upper")]
-        if found is None or np.abs(np.subtract(found, wanted)).max() > NEAR:
+        found = None if limit is None else [_number(limit.get(end, "0")) for end in ("lower", "upper")]
+        if found is None or not same(found, wanted, NEAR):
             saw = "no limit" if found is None else "{:g} and {:g}".format(*found)
             hint = ('A revolute joint has <limit lower="..." upper="..." effort="..." velocity="..."/>, in '
                     "radians. A continuous joint turns without end.")
             raise Missed("{} from {:g} to {:g} rad".format(name, *wanted), saw, hint)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
 
 
 def _is_turned(sent: Broadcast, position: float) -> bool:
@@ -104,8 +112,8 @@ def _is_turned(sent: Broadcast, position: float) -> bool:
 def _require(sent: Broadcast, place: Sequence[float], turn: Sequence[float], when: str, **part: Any) -> None:
     """Raises Missed where a transform is another one. part: further arguments of Missed."""
     there, rotation = _numbers(sent)
-    same_turn = abs(np.dot(rotation, turn)) > 1 - NEAR**2
-    if np.abs(np.subtract(there, place)).max() > NEAR or not same_turn:
+    same_turn = is_near(abs(sum(map(operator.mul, rotation, map(float, turn)))), 1.0, NEAR**2)
+    if not (same_turn and same(there, place, NEAR)):
         expected = f"{sent.message.child_frame_id} at {_text(place)} m, turned by {_text(turn)}, {when}"
         saw = f"at {_text(there)} m, turned by {_text(rotation)}"
         raise Missed(expected, saw, about=(sent, place, turn), **part)

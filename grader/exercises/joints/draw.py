@@ -8,6 +8,7 @@ from grader.checks.joints import FOLLOW_TRAJECTORY
 from grader.companions.figure import designer
 from grader.exercise import Exercise
 from grader.geometry import Point
+from grader.geometry.near import is_near
 from grader.responses import from_course
 from grader.worlds.arms import desk_of
 from sim.evidence import Goal, Recording
@@ -51,7 +52,7 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
         lambda run: _points(run)[0].time_from_start.sec < 1,
     "The shoulder jumps by half a turn between two points: where x < 0, atan(y / x) loses the sign; use "
     "atan2(y, x).":
-        lambda run: any(abs(after.positions[0] - before.positions[0]) > HALF_TURN
+        lambda run: any(not is_near(after.positions[0], before.positions[0], HALF_TURN)
                         for before, after in itertools.pairwise(_points(run))),
     "It doesn't even reach the first point. Check inverse(x, y) on paper, for the arm stretched "
     "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder subtract what the bent elbow adds?":

@@ -4,6 +4,7 @@ import itertools
 
 from grader.checks import Missed, otherwise, publishes
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import listed
 from sim.evidence import Recording
 
@@ -22,7 +23,7 @@ def publishes_commands(run: Recording) -> None:
 
 @seven.check(4, after=publishes_commands, hints={
     "Joints are commanded in radians: a right angle is 1.57. Publish the numbers from the task unchanged.":
-        lambda run, sent: any(abs(value) > 3.2 for value in sent),
+        lambda run, sent: any(not is_near(value, 0.0, 3.2) for value in sent),
     "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
         (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
     ),
@@ -50,7 +51,7 @@ def every_two_seconds(run: Recording) -> None:
         raise Missed("a callback that returns at once", f"one that blocked the node for {held:.3g} s", hint)
     stamps = [row.stamp for row in run.messages(COMMANDS)]
     for number, (before, stamp) in enumerate(itertools.pairwise([run.started_at, *stamps]), start=1):
-        if abs(stamp - before - PERIOD) > 0.05:
+        if not is_near(stamp - before, PERIOD, 0.05):
             hint = "Let one timer with a period of 2.0 s call send(), and publish one position in each call."
             raise Missed(f"position {number} at {PERIOD * number:g} s", f"it at {stamp:.3g} s", hint)
 

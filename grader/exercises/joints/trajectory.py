@@ -8,6 +8,7 @@ from grader.checks import Missed, hinting, otherwise, publishes, sends_goals
 from grader.checks.joints import FOLLOW_TRAJECTORY
 from grader.companions.joint_targets import CRUISE, teacher
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import Window, from_course, last_before, same
 from grader.worlds.arms import arm_of
 from sim.evidence import Goal, Message, Recording, Seconds
@@ -49,7 +50,9 @@ def sends_a_goal(run: Recording) -> None:
 
 @trajectory.check(5, after=sends_a_goal, hints={
     "The path is in radians, and so is the goal: don't convert to degrees.":
-        lambda run, path, sent: any(abs(value) > 3.2 for point in sent.points for value in point.positions),
+        lambda run, path, sent: not all(
+            is_near(value, 0.0, 3.2) for point in sent.points for value in point.positions
+        ),
     "Make each point of the path a point of the goal, with a new JointTrajectoryPoint for each.":
         lambda run, path, sent: len(sent.points) != len(path.points),
     "The path's joint_names say which number belongs to which joint, and the order differs from "

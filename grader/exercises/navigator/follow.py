@@ -146,7 +146,7 @@ def _trusts_odometry_alone(run: Recording) -> bool:
     from_start = Pose2D(0.0, 0.0, -yaw0)
     for stamp, turn in series(until_a_touch(run), "/cmd_vel", "angular.z"):
         _, x, y, yaw = run.pose_at(stamp)
-        if abs(turn) > 0.1:
+        if 0.1 < abs(turn) < math.inf:
             odometry = Pose2D(*from_start.point((x - x0, y - y0)), yaw - yaw0)
             fits_map.append(turn * _bearing_ahead(line, Pose2D(x, y, yaw)) > 0)
             fits_odometry.append(turn * _bearing_ahead(line, odometry) > 0)

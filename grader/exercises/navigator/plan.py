@@ -12,6 +12,7 @@ from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Point
 from grader.geometry.ground import ground
+from grader.geometry.near import is_near
 from grader.geometry.occupancy import cells_of
 from grader.responses import Window, from_course
 from grader.worlds.rooms import world_of
@@ -64,7 +65,7 @@ def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     begin, end = run.world.start[:2], run.world.goal
     ends = ("begins at the robot", points[0], begin), ("ends at the goal", points[-1], end)
     for words, point, right in ends:
-        if not math.dist(point, right) <= GAP:  # so that NaN fails
+        if not is_near(point, right, GAP):
             saw = f"({point[0]:.2f}, {point[1]:.2f}) m, which is {math.dist(point, right):.2f} m away"
             raise Missed(f"a path that {words}, ({right[0]:.2f}, {right[1]:.2f}) m", saw, about=(points,))
     gap, near = max(_gaps(points))

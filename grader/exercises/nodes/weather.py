@@ -1,8 +1,11 @@
 """A weather station whose conversions live in a module of the student's own."""
 
+import math
+
 from grader.checks import LogMatch, Missed, come_every, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from sim.evidence import Recording
 
 weather = Exercise("weather", "A weather station with a module of its own", seconds=10)
@@ -26,7 +29,8 @@ def logs_the_weather(run: Recording) -> list[LogMatch]:
 @weather.check(3, after=logs_the_weather)
 def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
     """The readings come in order, and start over after the last one."""
-    found = [round(_celsius(line)) for line in lines]
+    values = map(_celsius, lines)
+    found = [round(value) if math.isfinite(value) else value for value in values]
     wanted = [READINGS[index % len(READINGS)] for index in range(max(len(found), len(READINGS) + 1))]
     if found != wanted[: len(found)] or len(found) < len(wanted):
         hint = "Store the index of the next reading in self; index % len(READINGS) wraps around to 0."
@@ -37,7 +41,7 @@ def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
 @weather.check(4, after=logs_the_weather)
 def converts(run: Recording, lines: list[LogMatch]) -> None:
     """The temperature in Fahrenheit is right, to one decimal place."""
-    wrong = [line for line in lines if abs(float(line.groups[1]) - _fahrenheit(line)) >= 0.051]
+    wrong = [line for line in lines if not is_near(float(line.groups[1]), _fahrenheit(line), 0.051)]
     if wrong:
         expected = f"{_celsius(wrong[0]):g} C = {_fahrenheit(wrong[0]):.1f} F"
         hint = "Try your function in a cell: 0 °C is 32 °F, and 100 °C is 212 °F."

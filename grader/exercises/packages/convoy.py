@@ -5,6 +5,7 @@ from functools import partial
 from grader.checks import Missed, publishes
 from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from grader.workspace.installation import ros2_launch
 from grader.workspace.near_misses import entry_points, executables
 from grader.workspace.package import PackageRun
@@ -86,5 +87,5 @@ def names_its_needs(run: PackageRun) -> None:
 
 def _stops(run: PackageRun, side: str, gap: float, hint: str) -> None:
     left = WALL - run.tracks[side][-1].x
-    if abs(left - gap) > NEAR:
+    if not is_near(left, gap, NEAR):
         raise Missed(f"the {side} robot {gap:g} m before the wall", f"{left:.2f} m", hint, picture="path")

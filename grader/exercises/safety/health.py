@@ -8,6 +8,7 @@ from grader.checks import Missed, publishes, subscribes
 from grader.checks import rate as keeps_rate
 from grader.companions.battery_and_motor import BATTERY, MOTOR, BatteryAndMotor
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import from_course, last_before
 from sim.evidence import Message, Recording, Seconds, since_start
 
@@ -71,7 +72,7 @@ def gives_the_number(run: Recording) -> None:
         if one.true in (None, STALE):
             continue
         key = "percent" if one.name == "battery" else "celsius"
-        if not abs(_number(one.value) - one.number) < EXACT:
+        if not is_near(_number(one.value), one.number, EXACT):
             saw = "no such key" if one.value is None else repr(one.value)
             expected = f"{key} {one.number:.3g} in the values of {one.name} at {one.stamp:.3g} s"
             raise Missed(expected, saw, _value_hint(one))
@@ -82,7 +83,7 @@ def stamps_it(run: Recording) -> None:
     """The header of each array is stamped with the time at which it was made."""
     for row in publishes(run, TOPIC):
         stamp = since_start(row.message.header.stamp)
-        if not abs(row.stamp - stamp) < NOW:
+        if not is_near(row.stamp, stamp, NOW):
             saw = "an empty stamp" if row.message.header.stamp.sec == 0 else f"{stamp:.3g} s"
             hint = "msg.header.stamp = self.get_clock().now().to_msg()"
             raise Missed(f"{row.stamp:.3g} s in header.stamp", saw, hint)
@@ -152,6 +153,6 @@ def _number(text: str | None) -> float:
 def _value_hint(one: PartReport) -> str:
     if one.value is None:
         return 'status.values = [KeyValue(key=..., value=...)], with the keys "percent" and "celsius".'
-    if one.name == "battery" and abs(_number(one.value) * 100 - one.number) < EXACT:
+    if one.name == "battery" and is_near(_number(one.value) * 100, one.number, EXACT):
         return "That is not in percent: publish 100 times the percentage of the BatteryState."
     return "A KeyValue's value is a string: use str(...) of the number alone, without a unit."

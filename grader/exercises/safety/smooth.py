@@ -9,6 +9,7 @@ from grader.checks import Missed, publishes
 from grader.checks.twists import OUT, TWIST, speeds
 from grader.companions.drivers import RAW, RoughDriver
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import from_course
 from sim.evidence import Message, Recording, Seconds
 
@@ -65,10 +66,8 @@ def responds_to_each(run: Recording) -> None:
 def gets_there(run: Recording) -> None:
     """The robot gets the requested speed, as far as the limits allow, within 1.3 s."""
     for pair, steps in _steady(run):
-        beyond = (
-            abs(pair.sent) > abs(pair.right) and pair.sent * pair.right > 0 and pair.requested != pair.right
-        )
-        if pair.right and steps >= LONG and not beyond:
+        beyond = pair.sent * pair.right > 0 and abs(pair.right) < abs(pair.sent) < math.inf
+        if pair.right and steps >= LONG and not (beyond and pair.requested != pair.right):
             _same(pair, pair.right, "Keep adding the step, up to the request or the limit.")
 
 
@@ -76,7 +75,7 @@ def gets_there(run: Recording) -> None:
 def keeps_the_limits(run: Recording) -> None:
     """The speeds never exceed 0.3 m/s and 1 rad/s, in either direction."""
     for pair in _pairs(run):
-        if not abs(pair.sent) <= pair.axis.most + NEAR:
+        if not is_near(pair.sent, 0.0, pair.axis.most + NEAR):
             saw = f"{pair.sent:.3g} {pair.axis.unit} at {pair.stamp:.3g} s"
             expected = f"{pair.axis.name} up to {pair.axis.most:g} {pair.axis.unit}"
             hint = f"Clip the request first: max(-{pair.axis.most:g}, min({pair.axis.most:g}, requested))."
@@ -115,7 +114,7 @@ def takes_no_nonsense(run: Recording) -> None:
 
 
 def _same(pair: Response, right: float, hint: str, *, unsafe: bool = False) -> None:
-    if not abs(pair.sent - right) < 1e-3:
+    if not is_near(pair.sent, right, 1e-3):
         expected = (f"{pair.axis.name} {right:.3g} {pair.axis.unit} at {pair.stamp:.3g} s, for "
                     f"{pair.requested:.3g}")
         raise Missed(expected, f"{pair.sent:.3g}", hint, picture="topics", unsafe=unsafe)

@@ -13,6 +13,7 @@ from grader.checks.fields import stamp_words
 from grader.companions.camera import Format, camera
 from grader.exercise import Exercise, Scenario
 from grader.geometry.image import bearing_of, column_of_red, is_red, pixels_of
+from grader.geometry.near import is_near
 from grader.responses import Stimuli, Stimulus
 from sim.evidence import Recording
 from sim.network import Network
@@ -89,7 +90,7 @@ def _of_another_width(run: Recording, wrong: list[View]) -> Mapping[str, int] | 
     """The one width with which all wrong bearings would be right, if there is one."""
     found = [(view, value) for view in wrong for value in view.values if view.true is not None]
     widths = [2 * column_of_red(pixels_of(view.image.value)) / (1 - math.tan(value)) for view, value in found
-              if math.isfinite(value) and abs(math.tan(value) - 1) > 1e-6]
+              if math.isfinite(value) and not is_near(math.tan(value), 1.0, 1e-6)]
     if len(widths) < 2 or not 0 < max(widths) < 1.02 * min(widths):
         return None
     return {"width": round(widths[0])}

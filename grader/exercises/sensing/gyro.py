@@ -10,6 +10,7 @@ from grader.checks.no_data import no_data
 from grader.companions.blind_drivers import LateStarter
 from grader.exercise import Exercise, Scenario
 from grader.geometry.angles import least_turn, turn_between
+from grader.geometry.near import is_near
 from sim import Network
 from sim.evidence import Recording, Seconds
 
@@ -122,7 +123,7 @@ def ends_right(run: Recording, headings: Headings) -> Headings:
     """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
     stamp, value = headings[-1]
     turned = _turned(run, stamp)
-    if abs(turn_between(value, turned)) >= 3.0:
+    if not is_near(turn_between(value, turned), 0.0, 3.0):
         expected, saw = f"{turned:.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees"
         kept = {"credit": 0.5 if _is_in_other_units(value, turned) else 0.0, "measured": headings}
         raise Missed(expected, saw, picture="topics", about=(headings,), **kept)
@@ -134,7 +135,7 @@ def _is_in_other_units(value: float, turned: float) -> bool:
     if not math.isfinite(value):
         return False
     radians = abs(math.remainder(value - math.radians(turned), math.tau)) < math.radians(3.0)
-    return abs(turn_between(-value, turned)) < 3.0 or (radians and abs(turned) > 20.0)
+    return abs(turn_between(-value, turned)) < 3.0 or (radians and not is_near(turned, 0.0, 20.0))
 
 
 @gyro.check(5, after=ends_right)
@@ -145,7 +146,7 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
         raise no_data(run, f"headings from {RESTING:g} s on", f"{len(resting)}", [])
     (first, before), (last, after) = resting[0], resting[-1]
     drift = turn_between(after, before)
-    if abs(drift) >= 1.0:
+    if not is_near(drift, 0.0, 1.0):
         expected = (f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot "
                     "stands still")
         saw = f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second"

@@ -7,6 +7,7 @@ from grader.checks.services import has_client, is_refusal, is_success
 from grader.checks.topics import keeps_pace
 from grader.companions.service_servers import Door
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import Window
 from sim.evidence import Call, Recording
 
@@ -88,7 +89,7 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
         saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
         hint = "Not every answer is a yes: check answer.success before you drive."
         raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
-    late = [(at, speed) for at, speed in commands if at > opened + 0.5 and abs(speed - 0.3) > 0.03]
+    late = [(at, speed) for at, speed in commands if at > opened + 0.5 and not is_near(speed, 0.3, 0.03)]
     if late or not yes:
         saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
         guess = "In the done callback, when answer.success is True: self.speed = 0.3."

@@ -8,6 +8,7 @@ from grader.checks.services import call_text, is_refusal, is_success, response_f
 from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import ModeReader, Operator
 from grader.exercise import Exercise, Scenario
+from grader.responses import same
 from sim.evidence import Call, Recording, Seconds
 
 ARM, RESET = "/arm", "/reset"
@@ -138,7 +139,7 @@ def _commands(run: Recording, wanted: Velocity, why: str, guess: str = UNARMED) 
     """All commands are these; without any the robot stands still. guess: for a robot that should stand."""
     sent = run.messages("/cmd_vel")
     found = [(row.stamp, row.message.linear.x, row.message.angular.z) for row in sent]
-    wrong = [it for it in found if max(abs(it[1] - wanted[0]), abs(it[2] - wanted[1])) > 1e-3]
+    wrong = [it for it in found if not same(it[1:], wanted, 1e-3)]
     if wrong or (not found and any(wanted) and run.stamp - run.begin > SOON):
         at, v, w = wrong[0] if wrong else (run.begin, 0.0, 0.0)
         saw = f"({v:g} m/s, {w:g} rad/s) at {at:.3g} s" if wrong else f"no command from {at:.3g} s on"

@@ -9,6 +9,7 @@ from grader.checks.services import call_text, is_refusal, is_success, response_f
 from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import Reader, Tuner
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from sim.evidence import Call, Recording, Seconds
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
@@ -120,7 +121,7 @@ def _drives_at(run: Recording, speed: float, begin: Seconds, end: Seconds) -> No
     """The commands between two moments have this speed."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     values = series(run.during(begin, end), "/cmd_vel", "linear.x")
-    other = [(at, x) for at, x in values if abs(x - speed) > 1e-6]
+    other = [(at, x) for at, x in values if not is_near(x, speed, 1e-6)]
     if other or not values:
         saw = f"{other[0][1]:g} m/s at {other[0][0]:.3g} s" if other else "no command"
         hint = (

@@ -11,6 +11,7 @@ from grader.checks.services import is_success
 from grader.companions.engine_sensor import VOLTS, engine, engine_and_gain_setter
 from grader.companions.parameter_start import started_with
 from grader.exercise import Exercise, Scenario
+from grader.geometry.near import is_near
 from grader.responses import from_course
 from sim.evidence import Message, Recording, Seconds, since_start
 
@@ -76,7 +77,7 @@ def is_stamped(run: Recording, rows: list[Message]) -> None:
     """The header has the time at which the message is published, and the frame engine."""
     for row in rows:
         header = row.message.header
-        if abs(since_start(header.stamp) - row.stamp) > 0.02:
+        if not is_near(since_start(header.stamp), row.stamp, 0.02):
             hint = "rospy.Time.now() is self.get_clock().now().to_msg(), asked anew for each message."
             expected = f"the stamp {row.stamp:.3f} s in the message of that time"
             raise Missed(expected, stamp_words(header.stamp), hint)

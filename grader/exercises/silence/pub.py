@@ -7,6 +7,7 @@ import re
 from grader.checks import Missed, keeps_clear, publishes, series, tenths, traveled
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from sim.evidence import Recording, stamps
 from sim.ros2.system import OWN_NAME
 
@@ -78,7 +79,7 @@ def drives_the_circle(run: Recording) -> None:
 def drives_at_the_speed(run: Recording) -> None:
     """It drives at 0.3 m/s."""
     speeds = [speed for _, speed in series(run, COMMANDS, "linear.x")]
-    wrong = next((speed for speed in speeds if not abs(speed - SPEED) < 0.01), None)
+    wrong = next((speed for speed in speeds if not is_near(speed, SPEED, 0.01)), None)
     if wrong is not None:
         turn = f"{SPEED / RADIUS:g} rad/s"
         hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m needs {turn}."

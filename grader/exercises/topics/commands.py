@@ -55,7 +55,7 @@ def logs_nothing_else(run: Recording) -> None:
 
 
 def _requires_a_choice(run: Recording, *levels: str) -> None:
-    """Raise Missed where at each of these levels most commands get an answer that is not theirs."""
+    """Raise Missed where at each of these levels most commands get the answer of another one."""
     sent = list(filter(_is_command, run.messages(COMMAND)))
     for level in levels:
         wrong = [(row, line) for row in sent if (line := _first_contradiction(run, row, level))]

@@ -5,6 +5,7 @@ import math
 from grader.checks import Missed, publishes, rate, within
 from grader.checks.fields import stamp_words
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from sim.evidence import Message, Recording, since_start
 
 imu = Exercise("imu", "An IMU", seconds=3, extra_allowed=True)
@@ -42,7 +43,7 @@ def imu_is_stamped(run: Recording, sent: list[Message]) -> None:
     """The header's stamp is the time at which the message is sent."""
     for row in sent:
         stamp = row.message.header.stamp
-        if abs(since_start(stamp) - row.stamp) > 0.02:
+        if not is_near(since_start(stamp), row.stamp, 0.02):
             expected = f"the stamp {row.stamp:.3f} s (since the start) in the message sent at that time"
             hint = "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg()."
             raise Missed(expected, stamp_words(stamp), hint)
@@ -60,7 +61,7 @@ def imu_looks_left(run: Recording, sent: list[Message]) -> None:
     for row in sent:
         q = row.message.orientation
         length = math.hypot(q.x, q.y, q.z, q.w)
-        if not abs(length - 1.0) < 0.01:
+        if not is_near(length, 1.0, 0.01):
             expected = "a quaternion of length 1"
             hint = ("The numbers in a quaternion aren't angles: z = math.sin(yaw / 2), w = math.cos(yaw / "
                     "2), x = y = 0.")

@@ -6,6 +6,7 @@ import math
 from grader.checks import Missed, follows, publishes, series
 from grader.checks.motion import arrives, ends_with_a_stop, passes, stands_still, traveled
 from grader.exercise import Exercise
+from grader.geometry.near import is_near
 from grader.responses import closest
 from sim.evidence import Recording, stamps
 
@@ -23,8 +24,8 @@ def sends_velocities(run: Recording) -> None:
 
 @square.check(8, after=sends_velocities, guess={
     "angular.z was {fastest:.3g}: its unit is rad/s, and a quarter turn is pi/2 = 1.57 rad.":
-        lambda run: (fastest := max(abs(turn) for _, turn in series(run, "/cmd_vel", "angular.z"))) > math.tau
-        and {"fastest": fastest},
+        lambda run: not is_near(fastest := max(abs(turn) for _, turn in series(run, "/cmd_vel", "angular.z")),
+                                0.0, math.tau) and {"fastest": fastest},
     "This robot can't move sideways, so it ignores linear.y: turn, then drive ahead with linear.x.":
         lambda run: any(value for _, value in series(run, "/cmd_vel", "linear.y")),
     "The robot stops by itself 0.5 s after the last command: repeat it at 10 Hz, from a timer.":

@@ -132,3 +132,7 @@ camera_turns = changed("fixed", "continuous", CAMERA)
 not_closed = changed("</joint>", "")
 without_camera = described(PAN, '<link name="tilt_link"/>', TILT)
 only_the_pan = described(PAN)
+
+
+LimitsOfNan = changed('lower="-0.5" upper="1.0"', 'lower="nan" upper="nan"')
+LimitsInWords = changed('lower="-0.5"', 'lower="low"')

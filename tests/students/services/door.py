@@ -1,5 +1,6 @@
 """Visitors at the door: right ones, and wrong ones named by their defect."""
 
+import math
 import time
 
 import example_interfaces.srv
@@ -296,3 +297,11 @@ class AsksBeforeTheAnswer(Visitor):
     """Ten times a second, while an answer takes 0.2 s."""
 
     pause = 0.1
+
+
+class DrivesAtNan(Visitor):
+    """Once the door is open, the speed is not a number."""
+
+    def on_response(self, future):
+        super().on_response(future)
+        self.speed = math.nan if self.speed else 0.0

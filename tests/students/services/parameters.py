@@ -1,5 +1,7 @@
 """Cruisers: right ones, and wrong ones named by their defect."""
 
+import math
+
 import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -272,3 +274,12 @@ class NeverBothAtOnce(Cruiser):
             if parameter.name == "speed" and parameter.value < 0.0 and parameter.value > 0.5:
                 return SetParametersResult(successful=False, reason="out of range")
         return SetParametersResult(successful=True)
+
+
+class DrivesAtNan(Cruiser):
+    """The parameter is right, and no command is a number."""
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = math.nan
+        self.publisher.publish(msg)
