@@ -21,7 +21,7 @@ NOTEBOOK_METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
-CELL_METADATA = {"deletable", "editable", "nbgrader", "tags"}
+CELL_METADATA = {"deletable", "editable", "jupyter", "nbgrader", "tags"}  # jupyter: a hidden source
 CELL_ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")  # as the notebook format 4.5 allows
 LINES_SHOWN = 12
 

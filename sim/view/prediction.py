@@ -1,52 +1,27 @@
 """A prediction before a run: a question with answers to click, and afterwards what happened.
 
-A clicked answer replaces the buttons in the cell's output, as text, and is saved in the notebook's
-folder. It is not graded.
+It needs no kernel: a script in the page shows the buttons, stores the answer, and compares it with the
+outcome. JupyterLab with the course's extension also saves the answer, in the notebook's output and in its
+folder. A prediction is not graded.
 """
 
 from __future__ import annotations
 
-import datetime
+import hashlib
+import html
 import json
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-import anywidget
-import traitlets
-from IPython.display import DisplayHandle, display
+from IPython.display import display
 
 from sim.notebook import in_notebook
-from sim.view.javascript import script
+from sim.view.javascript import packed, script
 
 FILE = "predictions.json"  # in the notebook's folder: question -> answers, prediction, its day, what happened
 LETTERS = "abcd"
-
-
-class Buttons(anywidget.AnyWidget):
-    """The question with a button for each answer."""
-
-    _esm = script("prediction.js")
-    question = traitlets.Unicode().tag(sync=True)
-    answers = traitlets.Dict().tag(sync=True)
-    predicted = traitlets.Unicode(allow_none=True).tag(sync=True)
-
-    def __init__(self, prediction: Prediction, on_click: Callable[[str], None]) -> None:
-        traits = {"question": prediction.question, "answers": prediction.answers}
-        super().__init__(**traits, predicted=prediction.predicted)
-        self._on_click = on_click
-        self.on_msg(self._on_message)
-
-    def _on_message(self, _: Any, content: Any, buffers: Any) -> None:
-        letter = content.get("answer") if isinstance(content, dict) else None
-        if isinstance(letter, str) and letter in self.answers:  # pages are untrusted
-            self._on_click(letter)
-
-    def close(self) -> None:
-        """Close the widget. Closing again does nothing."""
-        self.layout.close()  # a separate widget that ipywidgets would retain
-        super().close()
+SCRIPT = packed(script("prediction.js"))
 
 
 class Prediction:
@@ -61,57 +36,70 @@ class Prediction:
             )
         self.question, self.answers = question, answers
         self._file = file.resolve()
-        earlier = _read(self._file).get(question, {})
-        same = isinstance(earlier, dict) and earlier.get("answers") == answers
-        self.predicted: str | None = earlier.get("predicted") if same else None
-        self._buttons: Buttons | None = None
-        self._display: DisplayHandle | None = None
 
-    def show(self) -> None:
-        """Display the question in the output of the running cell, with buttons where the page has widgets."""
-        self._buttons = Buttons(self, self.choose)
-        bundle = self._buttons._repr_mimebundle_()
-        data = bundle[0] if isinstance(bundle, tuple) else bundle
-        self._display = display({**data, **_bundle(self.text())}, raw=True, display_id=True)
+    @property
+    def predicted(self) -> str | None:
+        """The letter of the saved prediction; None without one, and for other answers."""
+        saved = _read(self._file).get(self.question, {})
+        letter = saved.get("predicted") if isinstance(saved, dict) else None
+        return letter if letter in [*self.answers] and saved.get("answers") == self.answers else None
 
-    def choose(self, letter: str) -> None:
-        """Predict this answer: show it in place of the buttons, and save it."""
-        self.predicted = letter
-        today = datetime.date.today().isoformat()
-        self._save(answers=self.answers, predicted=letter, on=today)
-        if self._display is not None:
-            self._display.update(_bundle(self.text()), raw=True)
-        if self._buttons is not None:
-            self._buttons.close()
-            self._buttons = None
+    def code(self, letter: str) -> str:
+        """Return the code of an answer, which does not show in the source which one is right."""
+        return hashlib.sha256(f"{self.question}\n{letter}".encode()).hexdigest()[:6]
 
-    def outcome(self, letter: str, details: str = "") -> None:
-        """Display which answer was right, and the student's. details: Markdown, such as measured values."""
-        if letter not in self.answers:
-            raise ValueError(f"outcome takes one of {', '.join(self.answers)}; it got {letter!r}.")
-        if self.predicted is None:
-            comparison = "You made no prediction."
-        elif self.predicted == letter:
-            comparison = "You predicted that."
-        else:
-            comparison = f"You predicted: {self.answers[self.predicted]} (**{self.predicted}**)."
-        happened = f"**What happened:** {self.answers[letter]} (**{letter}**). {comparison}"
-        if self.predicted is not None:
+    def outcome(self, answer: str, details: str = "") -> None:
+        """Display which answer was right beside the student's.
+
+        answer: its letter or its code. details: more text, such as measured values.
+        """
+        letter = next((letter for letter in self.answers if answer in (letter, self.code(letter))), "")
+        if not letter:
+            codes = ", ".join(f"{letter} or {self.code(letter)}" for letter in self.answers)
+            raise ValueError(f"outcome takes one of {codes}; it got {answer!r}.")
+        if self.predicted:
             self._save(happened=letter, details=details)
-        _show(f"{happened} {details}".rstrip())
+        _show(self._outcome_html(letter, details), self._outcome_text(letter, details))
 
     def text(self) -> str:
-        """The question and its answers as Markdown, with the student's prediction."""
+        """Return the question and its answers as Markdown, with the student's prediction."""
         lines = [f"**Predict:** {self.question}", ""]
         for letter, answer in self.answers.items():
             chosen = letter == self.predicted
             lines.append(f"- **{letter}** {answer}" + (" ← **your prediction**" if chosen else ""))
         return "\n".join(lines)
 
+    def show(self) -> None:
+        """Display the question: with buttons where scripts run, elsewhere as a list."""
+        answers = "".join(
+            f'<li data-letter="{letter}"><b>{letter}</b> {_html(answer)}</li>'
+            for letter, answer in self.answers.items()
+        )
+        question = f"<p><b>Predict:</b> {_html(self.question)}</p><ul>{answers}</ul>"
+        _show(f'<div class="ros2-prediction"{self._data()}>{question}</div>', self.text())
+
+    def _outcome_text(self, letter: str, details: str) -> str:
+        happened = f"**What happened:** {self.answers[letter]} (**{letter}**)."
+        if self.predicted == letter:
+            happened += " You predicted that."
+        elif self.predicted:
+            happened += f" You predicted: {self.answers[self.predicted]} (**{self.predicted}**)."
+        return f"{happened} {details}".rstrip()
+
+    def _outcome_html(self, letter: str, details: str) -> str:
+        happened = f"<p><b>What happened:</b> {_html(self.answers[letter])}</p>"
+        more = f"<p>{_html(details)}</p>" if details else ""
+        return f'<div class="ros2-outcome" data-happened="{letter}"{self._data()}>{happened}{more}</div>'
+
+    def _data(self) -> str:
+        """Return the attributes that the script in the page reads."""
+        values = {"question": self.question, "answers": json.dumps(self.answers)}
+        values["predicted"] = self.predicted or ""
+        return "".join(f' data-{name}="{html.escape(value)}"' for name, value in values.items())
+
     def _save(self, **values: Any) -> None:
         saved = _read(self._file)
-        entry = saved.get(self.question)
-        saved[self.question] = {**(entry if isinstance(entry, dict) else {}), **values}
+        saved[self.question] = {**saved[self.question], **values}
         text = json.dumps(saved, indent=1, ensure_ascii=False) + "\n"
         with suppress(OSError):  # in a folder that is read-only, the notebook's output alone has it
             self._file.write_text(text, encoding="utf-8")
@@ -124,22 +112,22 @@ def predict(question: str, **answers: str) -> Prediction:
     Raises ValueError for other numbers or names of answers.
     """
     prediction = Prediction(question, answers, Path(FILE))
-    if in_notebook():
-        prediction.show()
-    else:
-        print(prediction.text())
+    prediction.show()
     return prediction
 
 
-def _show(text: str) -> None:
+def _show(page: str, text: str) -> None:
     if in_notebook():
-        display(_bundle(text), raw=True)
+        page = f"{page}<script>{SCRIPT}</script>"
+        display({"text/html": page, "text/markdown": text, "text/plain": text}, raw=True)
     else:
         print(text)
 
 
-def _bundle(text: str) -> dict[str, str]:
-    return {"text/markdown": text, "text/plain": text}
+def _html(text: str) -> str:
+    """Escape a text; `...` is code."""
+    parts = html.escape(text).split("`")
+    return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))
 
 
 def _read(file: Path) -> dict[str, Any]:

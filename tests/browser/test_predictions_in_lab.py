@@ -1,22 +1,26 @@
-"""A student clicks a prediction, in light and dark, wide and narrow; the answer is in the saved notebook."""
+"""A student clicks a prediction, in light and dark, wide and narrow; it is there the next day."""
 
 import json
 
+import nbformat
 import pytest
 
 from tests.browser.lab import write_notebook
+from tests.patience import until
 
 pytestmark = pytest.mark.browser
 NAME = "pictures/predict.ipynb"
-ASK = "from sim.view import predict\nguess = predict('Does `x` *fall*?', a='yes, at once', b='no')"
-TEXT = "**Predict:** Does `x` *fall*?\n\n- **a** yes, at once ← **your prediction**\n- **b** no"
+ASK = "from sim.view import predict\nguess = predict('Does `x` fall?', a='yes, at `once`', b='no')"
+SAVED = "Your prediction is saved. Run the next cells to see what happens."
 
 
-def test_a_click_is_saved_as_text_and_compared_with_what_happened(students_folder, open_lab):
+def test_a_click_is_saved_compared_with_what_happened_and_there_the_next_day(students_folder, open_lab):
     write_notebook(students_folder / NAME, ASK, "guess.outcome('b')")
+    file = students_folder / "pictures/predictions.json"
     with open_lab(NAME) as lab:
         lab.run_cell(0)
         buttons = lab.cell(0).locator(".ros2-prediction button")
+        buttons.first.wait_for()
         assert buttons.all_inner_texts() == ["a\nyes, at once", "b\nno"]
         lab.screenshot("prediction")
         with lab.narrow_and_dark():
@@ -24,11 +28,60 @@ def test_a_click_is_saved_as_text_and_compared_with_what_happened(students_folde
             lab.screenshot("prediction-narrow-dark")
             assert lab.cell(0).evaluate("cell => cell.scrollWidth <= cell.clientWidth")
         buttons.first.click()
-        lab.cell(0).locator("li", has_text="your prediction").wait_for()
+        lab.cell(0).locator("[role=status]", has_text=SAVED).wait_for()
+        until(file.exists, "the saved prediction")
+        until(lambda: json.loads(file.read_text("utf-8"))["Does `x` fall?"]["predicted"] == "a", "the answer")
         lab.run_cell(1)
+        lab.cell(1).locator(".ros2-outcome.other").wait_for()
+        texts = ["You predicted:\nyes, at once", "What happened:\nno"]
+        assert lab.cell(1).locator(".ros2-outcome p").all_inner_texts() == texts
+        lab.screenshot("prediction-outcome")
         lab.save()
-    cells = json.loads((students_folder / NAME).read_text("utf-8"))["cells"]
-    shown = [["".join(output["data"]["text/markdown"]) for output in cell["outputs"]] for cell in cells]
-    assert shown == [[TEXT], ["**What happened:** no (**b**). You predicted: yes, at once (**a**)."]]
-    saved = json.loads((students_folder / "pictures/predictions.json").read_text("utf-8"))
-    assert saved["Does `x` *fall*?"]["predicted"] == "a"
+    entry = json.loads(file.read_text("utf-8"))["Does `x` fall?"]
+    assert (entry["predicted"], entry["happened"]) == ("a", "b")
+    saved = nbformat.read(students_folder / NAME, 4)
+    (card,) = [output.data["text/html"] for output in saved.cells[0].outputs if "data" in output]
+    assert 'data-predicted="a"' in card
+    with open_lab(NAME) as lab:  # with a new kernel that has run nothing
+        chosen = lab.cell(0).locator("button[aria-pressed=true]")
+        assert chosen.all_inner_texts() == ["a\nyes, at once"]
+        assert lab.cell(1).locator(".ros2-outcome p").all_inner_texts() == texts
+
+
+def test_a_prediction_can_be_made_without_a_kernel_that_knows_it(students_folder, open_lab):
+    name = "pictures/tomorrow.ipynb"
+    write_notebook(students_folder / name, ASK.replace("fall", "rise"), "guess.outcome('b')")
+    with open_lab(name) as lab:
+        lab.run_cell(0)
+        lab.save()
+    with open_lab(name) as lab:
+        lab.cell(0).locator("button", has_text="no").click()
+        lab.cell(0).locator("[role=status]", has_text=SAVED).wait_for()
+        lab.run_cell(0)
+        assert lab.cell(0).locator("button[aria-pressed=true]").all_inner_texts() == ["b\nno"]
+        lab.run_cell(1)
+        lab.cell(1).locator(".ros2-outcome.right", has_text="That's right.").wait_for()
+
+
+SLIDER = """
+from ipywidgets import IntSlider, interact
+@interact(steps=IntSlider(3, min=1, max=9))
+def show(steps):
+    print('steps:', steps)
+"""
+
+
+def test_a_slider_shows_its_last_state_the_next_day_and_says_what_to_do(students_folder, open_lab):
+    name = "pictures/slider.ipynb"
+    write_notebook(students_folder / name, SLIDER)
+    with open_lab(name) as lab:
+        lab.run_cell(0)
+        lab.cell(0).get_by_text("steps: 3").wait_for()
+        lab.save()
+    with open_lab(name) as lab:
+        lab.cell(0).get_by_text("steps: 3").wait_for()
+        lab.screenshot("slider-next-day")
+        before = "getComputedStyle(document.querySelector('.widget-interact'), '::before').content"
+        assert lab.page.evaluate(before) == '"Run this cell again to move the sliders."'
+        lab.run_cell(0)
+        lab.page.wait_for_function(f"() => {before} === 'none'")

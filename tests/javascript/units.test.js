@@ -11,6 +11,7 @@ const { viewAt } = load(["camera"], ["viewAt"]);
 const { cumulated, unchanged, topicAt, checkRun } = load(
   ["checks", "elements", "drawing", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun"],
 );
+const { isAtGoal } = load(["checks", "world_canvas"], ["isAtGoal"]);
 const { tipPath } = load(["checks", "world_canvas"], ["tipPath"]);
 const { visibleAt } = load(["checks", "elements", "drawing"], ["visibleAt"]);
 const { legendOf } = load(["legend"], ["legendOf"]);
@@ -132,4 +133,17 @@ test("a notebook is saved once at a time, and everything that changed is saved",
   const failing = { save: () => Promise.reject(new Error("disk full")) };
   await Promise.all([save(failing), save(failing)]);
   await save({ isDisposed: true });
+});
+
+test("a robot that comes near the goal has reached it, and the replay marks the moment", () => {
+  const world = checkWorld({ ...WORLD, goal: [3, 1] });
+  assert.equal(isAtGoal(world, [[2.8, 1, 0]]), true);
+  assert.equal(isAtGoal(world, [[2.7, 1, 0]]), false);
+  assert.equal(isAtGoal(checkWorld(WORLD), [[3, 1, 0]]), false);
+  assert.equal(isAtGoal(world, [null]), false);
+  const run = { ...RUN, world: { ...WORLD, goal: [0.19, 0] }, tracks: [[[-1000, 500, 500], [0, 0, 0], [0, 0, 0]]] };
+  const { reached, marks } = checkRun(run);
+  assert.equal(reached, 0.1);
+  assert.deepEqual(marks.map(({ kind, words }) => [kind, words]), [["end", "over"], ["goal", "Reached the star in 0.1 s."]]);
+  assert.equal(checkRun(RUN).reached, null);
 });

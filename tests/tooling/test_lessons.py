@@ -10,7 +10,7 @@ from tests.exercises.score_tables import graded_exercises, notebook_run
 
 ROOT = Path(__file__).parents[2]
 WIDGET = "application/vnd.jupyter.widget-view+json"
-NOT_LIVE = ("interactive(", "VBox(", "**Predict:**")
+NOT_LIVE = ("interactive(", "VBox(")
 LESSONS = sorted(ROOT.glob("course/[0-9]*/*.ipynb"))
 NAMES = [f"{path.parent.name}/{path.stem}" for path in LESSONS]
 # One that plays; `make solutions` runs every lesson for each change that is proposed.
@@ -26,7 +26,7 @@ def cells(folder, name):
 
 
 def is_live(output):
-    """Whether this is a live picture; sliders, buttons and predictions are widgets, too, but need no end."""
+    """Whether this is a live picture; sliders and buttons are widgets, too, but need no end."""
     data = output.get("data", {})
     return WIDGET in data and not data["text/plain"].startswith(NOT_LIVE)
 
@@ -46,6 +46,13 @@ def test_what_a_slider_shows_is_there_when_the_lesson_has_run(lesson):
             shown = [output.data["text/plain"] for output in cell.outputs if "data" in output]
             sliders = [text for text in shown if text.startswith("interactive(")]
             assert len(sliders) == 1 and len(shown) > 1
+
+
+@pytest.mark.parametrize("lesson", NAMES)
+def test_no_source_shows_which_answer_of_a_prediction_is_right(lesson):
+    for name, source in cells("course", lesson):
+        (letters,) = re.findall(r"\.outcome\((.*)\)", source) or [""]
+        assert not re.search(r"[\"'][a-d][\"']", letters), f"{name}: write the code that `outcome` names"
 
 
 def test_every_assignment_has_a_lesson():

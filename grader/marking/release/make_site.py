@@ -22,7 +22,6 @@ from grader.work_folder import student_files
 
 SETTINGS = Path(__file__).with_name("sphinx_settings.py")
 PAGES = ("glossary.md", "real_robot.md", "TUTOR.md")  # of course/, in this order
-WIDGET = "application/vnd.jupyter.widget-view+json"
 NOTEBOOK_LINK = re.compile(r'(href="[^":]+)\.ipynb(?=[#"])')
 INDEX = """# ROS 2 in notebooks
 
@@ -91,8 +90,6 @@ def _write_executed(source: Path, target: Path) -> None:
             data = output.get("data", {})
             if "text/html" in data:  # such as the map, which links to notebooks
                 data["text/html"] = NOTEBOOK_LINK.sub(r"\1.html", data["text/html"])
-            if "text/markdown" in data:  # a prediction: its buttons need a kernel
-                data.pop(WIDGET, None)
     notebook.metadata.pop("widgets", None)
     nbformat.write(notebook, target)
 

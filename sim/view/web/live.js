@@ -103,6 +103,7 @@ class View {
     this.world = model.get("world") && checkWorld(model.get("world"));
     this.trails = [];
     this.tip = null; // the path of an arm's far end
+    this.reached = null; // when the goal was reached first (s)
     this.stage = make("div", { className: "stage" });
     this.topics = make("div");
     this.rows = new Map(); // topic name -> its row; rows are kept, to preserve clicks and focus
@@ -236,7 +237,11 @@ class View {
     });
     const tip = tipPath(this.world, poses.slice(-1));
     if (tip) this.extend(this.tip ??= [], tip[0]);
-    this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails, tip: this.tip };
+    if (this.reached === null && isAtGoal(this.world, poses)) {
+      this.reached = floats[0];
+      this.showEvent(this.status.ended);
+    }
+    this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails, tip: this.tip, reached: this.reached !== null };
     this.picture.requestPaint();
   }
 
@@ -276,13 +281,14 @@ class View {
     this.picture.requestPaint();
   }
 
-  /** The end of the run, or the newest contact: both are announced to screen readers. */
+  /** That the goal was reached, and the end of the run or the newest contact: all are announced to screen readers. */
   showEvent(ended) {
     const { warning = "" } = this.status; // of a stand-alone robot
     this.warningLine.hidden = !warning;
     if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
-    const text = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
+    const event = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
+    const text = [this.reached ? reachedText(this.reached) : "", event].filter(Boolean).join(" ");
     if (text !== this.event) this.statusLine.textContent = this.event = text;
   }
 

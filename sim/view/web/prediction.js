@@ -1,26 +1,99 @@
-// A question about the next run, with answers to click: ../prediction.py creates it, and gets the clicked answer.
+// Questions about the next run with answers to click, and what happened beside the prediction; ../prediction.py makes
+// their HTML. It needs no kernel. Whoever can save an answer listens for the event "ros2-prediction".
 
-export default {
-  render({ model, el }) {
-    const question = make("p", {}, make("b", {}, "Predict: "), ...codes(model.get("question")));
-    const predicted = model.get("predicted");
-    const answers = Object.entries(model.get("answers")).map(([letter, answer]) => {
-      const label = make("span", {}, ...codes(answer), letter === predicted ? make("i", {}, " (your last prediction)") : "");
-      const choice = make("button", { type: "button" }, make("b", {}, letter), label);
-      choice.addEventListener("click", () => {
-        for (const each of answers) each.disabled = true; // one click counts; the kernel may be busy
-        choice.classList.add("chosen");
-        model.send({ answer: letter });
-      });
-      return choice;
-    });
-    const root = make("div", { className: "ros2-prediction", role: "group", "aria-label": "Prediction" }, make("style", {}, STYLE));
-    root.append(question, ...answers);
-    el.append(root);
-  },
-};
+const STORE = "ros2-course-predictions"; // in the browser: question -> letter
+const READY = "data-ready";
+
+function stored() {
+  try {
+    return JSON.parse(localStorage.getItem(STORE) ?? "{}") ?? {};
+  } catch {
+    return {}; // none, or a page that may not store anything
+  }
+}
+
+/**
+ * The letter that was predicted for the question of a card or an outcome; "" if none.
+ * @param {HTMLElement | {dataset: DOMStringMap}} place
+ */
+function predicted({ dataset }) {
+  const letter = dataset.predicted || stored()[dataset.question];
+  return Object.hasOwn(answersOf({ dataset }), letter) ? letter : "";
+}
+
+function answersOf({ dataset }) {
+  try {
+    return JSON.parse(dataset.answers) ?? {};
+  } catch {
+    return {};
+  }
+}
+
+const sameQuestion = (kind, { dataset }) =>
+  [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll(`.ros2-${kind}`))].filter((other) => other.dataset.question === dataset.question);
+
+/** Show the answers of a question as buttons. */
+function installPrediction(card) {
+  card.setAttribute(READY, "");
+  card.setAttribute("role", "group");
+  card.setAttribute("aria-label", "Prediction");
+  const buttons = [...card.querySelectorAll("li[data-letter]")].map((item) => {
+    const { letter } = item.dataset;
+    const [name, ...answer] = item.childNodes;
+    const choice = make("button", { type: "button" }, name, make("span", {}, ...answer));
+    choice.dataset.letter = letter;
+    choice.addEventListener("click", () => choose(card, letter));
+    return choice;
+  });
+  card.querySelector("ul")?.replaceWith(...buttons, make("p", { className: "state", role: "status" }));
+  showChoice(card);
+}
+
+function choose(card, letter) {
+  try {
+    localStorage.setItem(STORE, JSON.stringify({ ...stored(), [card.dataset.question]: letter }));
+  } catch {
+    // this page has the answer as long as it is open
+  }
+  card.dataset.predicted = letter;
+  const { question } = card.dataset;
+  card.dispatchEvent(new CustomEvent("ros2-prediction", { bubbles: true, detail: { question, answers: answersOf(card), letter } }));
+  showChoice(card);
+}
+
+function showChoice(card) {
+  const letter = predicted(card), known = sameQuestion("outcome", card).length > 0;
+  for (const choice of card.querySelectorAll("button")) {
+    choice.setAttribute("aria-pressed", String(choice.dataset.letter === letter));
+    choice.disabled = known;
+  }
+  const state = card.querySelector(".state");
+  if (state) state.textContent = letter ? "Your prediction is saved. Run the next cells to see what happens." : "";
+  if (state && known) state.textContent = letter ? "" : "You made no prediction before the run.";
+}
+
+/** Show the prediction beside what happened. */
+function installOutcome(place) {
+  place.setAttribute(READY, "");
+  place.setAttribute("role", "status");
+  const card = sameQuestion("prediction", place)[0];
+  const letter = predicted(place) || (card ? predicted(card) : "");
+  const answers = answersOf(place), right = letter === place.dataset.happened;
+  if (letter) {
+    place.classList.add(right ? "right" : "other");
+    place.prepend(make("p", {}, make("b", {}, "You predicted: "), ...codes(answers[letter])));
+  }
+  if (right) place.append(make("p", { className: "state" }, "That's right."));
+  if (card) showChoice(card);
+}
 
 /** A text as elements: `...` is code. */
 function codes(text) {
   return text.split("`").map((part, index) => (index % 2 ? make("code", {}, part) : part));
 }
+
+if (!document.querySelector("style.ros2-predictions")) {
+  document.head.append(make("style", { className: "ros2-predictions" }, STYLE));
+}
+document.querySelectorAll(`.ros2-prediction:not([${READY}])`).forEach(installPrediction);
+document.querySelectorAll(`.ros2-outcome:not([${READY}])`).forEach(installOutcome);

@@ -218,7 +218,7 @@ function frameAt(run, time) {
     poses, scan: run.scans[before(run.scans, time, stampOf)] || null,
     trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
     tip: run.tip && [...run.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: run.tip,
-    drawn: run.drawing && visibleAt(run.drawing, time),
+    drawn: run.drawing && visibleAt(run.drawing, time), reached: run.reached !== null && run.reached <= time + 1e-6,
     contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
   };
 }

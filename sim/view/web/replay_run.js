@@ -1,7 +1,7 @@
 // Parses the data of a replay (../replay_data.py). It is untrusted: invalid data throws a TypeError.
 
 const STRIP = 240; // columns of a topic's timeline
-const KINDS = ["contact", "error", "missed", "push", "end", "DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
+const KINDS = ["contact", "error", "missed", "push", "end", "goal", "DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const KEY = /^[0-9a-f]{12}$/;
 
 /** @typedef {ReturnType<typeof checkRun>} Run */
@@ -64,6 +64,9 @@ function checkRun(run) {
   }));
   const messages = list(run.messages ?? [], 100, checkMessages); // older pages have none
   const end = size(run.end) || 0.001;
+  const moment = world ? stamps.findIndex((_, index) => isAtGoal(world, tracks.map((poses) => poses[index]))) : -1;
+  const reached = moment < 0 ? null : stamps[moment];
+  const success = reached ? [{ stamp: reached, kind: "goal", words: reachedText(reached), place: null }] : [];
   return {
     key: KEY.test(run.run ?? "") ? run.run : "", plays: run.plays === true, path: world !== null && run.path === true, failure: text(run.failure ?? ""), tip: tipPath(world, tracks.at(-1) ?? []), open: run.open === undefined ? end : Math.min(size(run.open), end),
     graph: run.graph ? checkGraph(run.graph) : null, // older pages have none
@@ -74,7 +77,8 @@ function checkRun(run) {
       // -1: out of range, -2: no measurement
       ranges: cumulated(scan.ranges, 1).map((range) => (range >= 0 ? range * 0.02 : range === -1 ? Infinity : NaN)),
     })),
-    marks: list(run.marks, 1000, event),
+    reached,
+    marks: [...list(run.marks, 1000, event), ...success].sort((one, other) => one.stamp - other.stamp),
     logs: list(run.logs, 1000, event),
     strip: run.strip ? checkStrip(run.strip) : null,
     topics: topics.map((topic, index) => ({ ...topic, messages: messages[index] ?? null })),

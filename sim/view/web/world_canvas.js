@@ -5,8 +5,18 @@ const MAX_HEIGHT = 500; // CSS pixels
 const LEAST_HEIGHT = 140, TOPICS = 40; // px; in a panel, at least of the picture, and what is left for topics
 const LEAST_SHARE = 0.45; // of a panel's height, at least for the picture
 const LEAST_ROBOT = 7; // px, the radius of a robot that would be smaller in a large world
+const GOAL_REACH = 0.25; // m, from a robot's center to the goal that it has reached
 const FAINT = 0.35; // opacity of a body where it started
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
+
+/** Whether a robot or turtle of this world is at its goal. @param {World} world @param {(Pose | null)[]} poses */
+function isAtGoal(world, poses) {
+  return world.goal !== null && poses.some((pose, index) => pose && ["robot", "turtle"].includes(world.bodies[index]?.kind)
+    && Math.hypot(pose[0] - world.goal[0], pose[1] - world.goal[1]) <= GOAL_REACH);
+}
+
+/** The announcement of that moment (s). */
+const reachedText = (stamp) => `Reached the star in ${stamp.toFixed(1)} s.`;
 
 /** The distance of a machine's far end from the pose of its last link; null unless it is made of links. */
 function tipReach(world) {
@@ -26,7 +36,7 @@ function tipPath(world, poses) {
 /** @typedef {{ pose: Pose, ranges: ArrayLike<number>, start: number, step: number, far: number }} LaserScan */
 /**
  * @typedef {{ poses: Pose[], scan: LaserScan | null, trails: Path[], ahead: Path[], contacts: number[][], starts?: Pose[],
- *   drawn?: any, tip?: Path, tipAhead?: Path }} Frame
+ *   drawn?: any, tip?: Path, tipAhead?: Path, reached?: boolean }} Frame
  */
 
 /**
@@ -34,7 +44,8 @@ function tipPath(world, poses) {
  *
  * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
  * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
- * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end.
+ * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end; reached,
+ * whether a robot has been at the goal.
  * There may be more turtles than at the start.
  */
 class WorldCanvas {
@@ -258,7 +269,7 @@ class WorldCanvas {
     c.strokeStyle = look.wall;
     c.lineWidth = 3;
     c.stroke();
-    if (world.goal) this.star(...world.goal);
+    if (world.goal) this.star(...world.goal, this.frame.reached);
     const taken = [];
     for (const [name, place] of world.places) this.place(name, ...this.at(...place), taken);
   }
@@ -289,7 +300,8 @@ class WorldCanvas {
     c.fillText(name, px + dx, py + dy);
   }
 
-  star(x, y) {
+  /** The goal: an empty star, and once it was reached a full one in a ring. */
+  star(x, y, reached) {
     const [px, py] = this.at(x, y);
     const c = this.context;
     c.beginPath();
@@ -300,9 +312,17 @@ class WorldCanvas {
     }
     c.closePath();
     c.fillStyle = this.look.goal;
+    c.globalAlpha = reached ? 1 : 0.35;
     c.fill();
+    c.globalAlpha = 1;
     c.strokeStyle = this.look.rim;
-    c.lineWidth = 1;
+    c.lineWidth = 1.5;
+    c.stroke();
+    if (!reached) return;
+    c.beginPath();
+    c.arc(px, py, 15, 0, 2 * Math.PI);
+    c.strokeStyle = this.look.goal;
+    c.lineWidth = 3;
     c.stroke();
   }
 

@@ -4,6 +4,7 @@ import { KernelComm } from "./kernel_comm.js";
 import { RobotPanel, RobotSidebar, robotRenderer, ROBOT } from "./robot_panel.js";
 import { imageRenderer } from "./images.js";
 import { waitingExecutor } from "./cell_executor.js";
+import { savePredictions } from "./predictions.js";
 import { save } from "./saving.js";
 import { navigationButtons, renameTab } from "./tabs.js";
 import { startPage } from "./start.js";
@@ -43,6 +44,7 @@ export async function plugins(share) {
         const buttons = [robotPanel.button(), validateButton(lab, app, panel), ...navigationButtons(lab, app, panel)];
         buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
         renameTab(panel);
+        savePredictions(app, panel);
       };
       tracker.widgetAdded.connect(extend);
       tracker.forEach((panel) => extend(null, panel));
