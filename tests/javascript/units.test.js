@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { save } from "../../jupyter/labextensions/ros2-course/static/saving.js";
+import { tabName } from "../../jupyter/labextensions/ros2-course/static/tabs.js";
 import { load } from "./load.js";
 
 const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"], ["checkWorld", "list", "number", "numbers", "text", "checkGraph"]);
@@ -146,4 +147,11 @@ test("a robot that comes near the goal has reached it, and the replay marks the 
   assert.equal(reached, 0.1);
   assert.deepEqual(marks.map(({ kind, words }) => [kind, words]), [["end", "over"], ["goal", "Reached the star in 0.1 s."]]);
   assert.equal(checkRun(RUN).reached, null);
+});
+
+test("tabs of lessons, exercises and pages of the bridge have names of their own", () => {
+  assert.equal(tabName("course/04_actions/driving.ipynb"), "4 Actions: driving");
+  assert.equal(tabName("work/exercises/01_nodes/nodes.ipynb"), "1 Nodes: exercises");
+  assert.equal(tabName("course/bridge/05_security.ipynb"), "B5 Security");
+  assert.equal(tabName("notes.ipynb"), "");
 });

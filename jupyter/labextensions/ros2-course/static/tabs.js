@@ -3,13 +3,17 @@
 import { OPEN_START } from "./start.js";
 
 const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)_(\w+)\/(\w+)\.ipynb$/;
+const PAGE = /^(?:.*\/)?(course\/bridge)\/(\d\d)_(\w+)\.ipynb$/; // after the lessons
 
 export function tabName(path) {
+  const [, , page, about] = PAGE.exec(path) ?? [];
+  if (page) return `B${Number(page)} ${subjectOf(about)}`;
   const [, folder, number, topic, file] = FILE.exec(path) ?? [];
   if (!number) return "";
-  const subject = topic[0].toUpperCase() + topic.slice(1).replaceAll("_", " ");
-  return `${Number(number)} ${subject}: ${folder === "course" ? file : "exercises"}`;
+  return `${Number(number)} ${subjectOf(topic)}: ${folder === "course" ? file : "exercises"}`;
 }
+
+const subjectOf = (name) => name[0].toUpperCase() + name.slice(1).replaceAll("_", " ");
 
 export function renameTab(panel) {
   // JupyterLab renames the file when the title changes, so its handler must be disconnected.
@@ -23,8 +27,14 @@ export function renameTab(panel) {
   panel.title.changed.connect(name); // JupyterLab sets the title to the file's name, initially and after a rename
 }
 
-/** The next notebook: the lesson's other one, its exercises, then the next lesson; undefined after the last. */
+/** The next notebook: the lesson's other one, its exercises, then the next lesson or page; undefined after the last. */
 async function nextNotebook(contents, path) {
+  const [, bridge] = PAGE.exec(path) ?? [];
+  if (bridge) {
+    const { content } = await contents.get(bridge);
+    const pages = content.map((each) => each.path).filter((each) => PAGE.test(each)).sort();
+    return pages[pages.indexOf(path) + 1];
+  }
   const [, folder, number, topic, file] = FILE.exec(path) ?? [];
   if (!number) return undefined;
   const notebooks = async (folder) => {
@@ -49,7 +59,7 @@ async function nextNotebook(contents, path) {
 export function navigationButtons(lab, app, panel) {
   const open = (path) => app.commands.execute("docmanager:open", { path });
   const button = (label, tooltip, onClick) => new lab.ToolbarButton({ label, tooltip, onClick });
-  if (!FILE.test(panel.context.path)) return [];
+  if (!FILE.test(panel.context.path) && !PAGE.test(panel.context.path)) return [];
   return [
     button("Course", "Back to the start page of the course", () => app.commands.execute(OPEN_START)),
     button("Next", "Go to the next notebook", async () => {
