@@ -52,7 +52,7 @@ def plot_jitter(
     levels = [(nominal, "mean" if period is None else "period", "muted")]
     levels += [] if deadline is None else [(1000 * deadline, "deadline", "caution")]
     title = _title(topic, moments, gaps, deadline, late)
-    figure.interactive = plot_data(recording, title, panels=[panel("ms", curves, levels)])
+    figure.offer(plot=plot_data(recording, title, panels=[panel("ms", curves, levels)]))
     return note_failure(figure, recording)
 
 

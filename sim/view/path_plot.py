@@ -71,7 +71,7 @@ def plot_path(recording: Recording) -> Plot:
         points = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*points.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
     legend_beside(axes)
-    figure.packed_path = pack_path(recording)
+    figure.offer(path=pack_path(recording))
     return note_failure(figure, recording)
 
 

@@ -31,8 +31,19 @@ class Plot(Figure):
     """A figure that Jupyter displays without pyplot, with a description as alt text."""
 
     failure = ""  # of the run that it shows
-    interactive: dict[str, Any] | None = None  # the data of the interactive plot, from `plot_data`
-    packed_path = ""  # the data of the interactive path, from `pack_path`
+    _plot: dict[str, Any] | None = None
+    _path = ""
+    _artists = 0  # in the axes, when the interactive picture was made
+
+    def offer(self, *, plot: dict[str, Any] | None = None, path: str = "") -> None:
+        """Let Jupyter show an interactive plot or path instead, unless more is drawn into the axes.
+
+        plot: from `plot_data`. path: from `pack_path`.
+        """
+        self._plot, self._path, self._artists = plot, path, self._count_artists()
+
+    def _count_artists(self) -> int:
+        return sum(len(axes.get_children()) for axes in self.axes)
 
     @property
     def description(self) -> str:
@@ -46,7 +57,7 @@ class Plot(Figure):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """The interactive plot, if there is one, with this figure for pages without scripts."""
-        if self.interactive is None and not self.packed_path:
+        if (self._plot is None and not self._path) or self._count_artists() != self._artists:
             return {}  # then Jupyter shows the PNG
         return {"text/html": self._html(shared=True), "text/plain": repr(self)}
 
@@ -56,9 +67,9 @@ class Plot(Figure):
         return self._html(shared=False)
 
     def _html(self, *, shared: bool) -> str:
-        if self.packed_path:
-            return player_html(self.packed_path, small_png(self), self.description, shared=shared)
-        return plot_html(self.interactive or {}, small_png(self), self.description, shared=shared)
+        if self._path:
+            return player_html(self._path, small_png(self), self.description, shared=shared)
+        return plot_html(self._plot or {}, small_png(self), self.description, shared=shared)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         return png(self), {"alt": self.description}

@@ -60,7 +60,7 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
         axes.plot(moments, [height] * len(moments), "|", color=color, markersize=16, markeredgewidth=1.5)
     _along_time(recording, axes, [label for label, _, _ in rows])
     ticks = [row(label, moments, _PALETTE.get(color, 0)) for label, moments, color in rows]
-    figure.interactive = plot_data(recording, "Messages over time", rows=ticks)
+    figure.offer(plot=plot_data(recording, "Messages over time", rows=ticks))
     return note_failure(figure, recording)
 
 
@@ -94,7 +94,7 @@ def plot_logs(recording: Recording) -> Plot:
             look = {"color": color, "markersize": size, "markeredgewidth": 2, "label": level}
             axes.plot(moments, rows, marker, **look)
     _along_time(recording, axes, names)
-    figure.interactive = plot_data(recording, "Log lines over time", rows=_log_rows(recording, names))
+    figure.offer(plot=plot_data(recording, "Log lines over time", rows=_log_rows(recording, names)))
     if names:
         legend_beside(axes)
     return note_failure(figure, recording)
@@ -155,7 +155,7 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     axes.grid(color=GRID)
     axes.legend(framealpha=0.9, edgecolor="none")  # legible even on top of a line
     shown = [panel(name, curves) for name, curves in panels.items()]
-    figure.interactive = plot_data(recording, topic, panels=shown)
+    figure.offer(plot=plot_data(recording, topic, panels=shown))
     return note_failure(figure, recording)
 
 

@@ -40,7 +40,7 @@ def write_package(folder):
     """Write the package as the three lessons do, with their lines of setup.py, and build it."""
     commands = blocks("03_services/parameters", "")[0]
     subprocess.run(["bash", "-ec", commands], cwd=folder, env=terminal(), check=True)
-    package = folder / "work/my_ws/src/my_nodes"
+    package = folder / "my_ws/src/my_nodes"
     for lesson, program in PROGRAMS.items():
         (package / "my_nodes" / f"{program}.py").write_text(blocks(lesson, "python")[0])
     setup = package / "setup.py"
@@ -53,7 +53,7 @@ def write_package(folder):
     lines = blocks("05_sensing/guarding", "python")[1].strip() + "\n'mount = my_nodes.mount:main',\n"
     assert old in setup.read_text()
     setup.write_text(setup.read_text().replace(old, lines))
-    subprocess.run(["colcon", "build"], cwd=folder / "work/my_ws", env=terminal(), check=True)
+    subprocess.run(["colcon", "build"], cwd=folder / "my_ws", env=terminal(), check=True)
 
 
 @pytest.mark.soak  # it builds a package, and runs its programs in real time
@@ -61,7 +61,7 @@ def test_the_programs_of_the_three_lessons_run_beside_a_robot(tmp_path):
     write_package(tmp_path)
     with robot("--world", "room", "--headless") as room:
         domain = {"ROS_DOMAIN_ID": str(room.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        source = "cd work/my_ws && source install/setup.bash && exec"
+        source = "cd my_ws && source install/setup.bash && exec"
         through = blocks("05_sensing/guarding", "")[1].strip()
         started = [
             subprocess.Popen(["bash", "-c", f"{source} {command}"], cwd=tmp_path, env=terminal(**domain))

@@ -199,3 +199,12 @@ def test_a_push_is_marked():
     world = dataclasses.replace(cart, machine=dataclasses.replace(cart.machine, pushes=pushes))
     mark, _ = data(plot_topics(run(world=world, seconds=2, quiet=True)))["marks"]
     assert mark == [1000, "push", "t = 1 s: the cart is pushed with 5 N for 0.1 s", None]
+
+
+@pytest.mark.parametrize("made", [lambda: plot_path(driven([(0, 0, 0), (1, 0, 0)])), lambda: plot_signal(commands(), "/cmd_vel")])
+def test_a_plot_into_which_more_is_drawn_is_shown_as_it_is(made):
+    figure = made()
+    assert set(figure._repr_mimebundle_()) == {"text/html", "text/plain"}
+    figure.axes[0].plot([0, 1], [0, 1], "k--")
+    assert figure._repr_mimebundle_() == {}
+    assert figure._repr_png_()[0].startswith(b"\x89PNG")
