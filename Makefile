@@ -73,6 +73,7 @@ lint: tools  ## say what is untidy, change nothing
 	$(BIN)/python -m grader.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
 	@sh .ci/javascript
+	@$(BIN)/python -m tests.soak_record
 
 setup: $(VENV)/.interfaces  ## make .venv and nothing more
 

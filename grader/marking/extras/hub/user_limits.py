@@ -22,7 +22,7 @@ def missing_controllers(root: Path = ROOT) -> list[str]:
     """The controllers that this machine lets no user have."""
     if _is_unified(root):
         present = (root / "cgroup.controllers").read_text(encoding="utf-8").split()
-        return [name for name in CONTROLLERS if name not in present or not os.access(root, os.W_OK)]
+        return [name for name in CONTROLLERS if name not in present or not _enable(root, name)]
     return [name for name in CONTROLLERS if not os.access(root / name / "cgroup.procs", os.W_OK)]
 
 
@@ -59,12 +59,20 @@ def _is_unified(root: Path) -> bool:
     return (root / "cgroup.controllers").exists()
 
 
+def _enable(folder: Path, controller: str) -> bool:
+    """Let the groups in this one have a controller; a container may have it and forbid that."""
+    try:
+        (folder / "cgroup.subtree_control").write_text(f"+{controller}")
+        return True
+    except OSError:
+        return False
+
+
 def _unified(user: str, limits: UserLimits, root: Path) -> Path:
     group = root / NAME / user
-    for folder in (root, root / NAME):
-        folder.mkdir(exist_ok=True)
-        for name in CONTROLLERS:
-            (folder / "cgroup.subtree_control").write_text(f"+{name}")
+    (root / NAME).mkdir(exist_ok=True)
+    for name in CONTROLLERS:
+        _enable(root / NAME, name)
     group.mkdir(exist_ok=True)
     (group / "memory.max").write_text(str(int(limits.memory_gb * GIGABYTE)))
     with suppress(OSError):  # without swap

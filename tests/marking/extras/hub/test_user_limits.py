@@ -34,6 +34,13 @@ def test_the_second_form_without_a_controller_limits_nothing(tmp_path):
     assert user_limits.make_group("alice", LIMITS, tmp_path) == []
 
 
+def test_the_second_form_in_a_container_that_may_not_divide_its_group_limits_nothing(tmp_path):
+    (tmp_path / "cgroup.controllers").write_text("cpuset cpu io memory pids")
+    (tmp_path / "cgroup.subtree_control").mkdir()  # a write ends with an OSError, as in such a container
+    assert user_limits.missing_controllers(tmp_path) == ["memory", "pids", "cpu"]
+    assert user_limits.make_group("alice", LIMITS, tmp_path) == []
+
+
 def test_the_first_form_has_a_group_for_each_controller(tmp_path):
     root = separate(tmp_path, "memory", "pids", "cpu")
     groups = user_limits.make_group("alice", LIMITS, root)
