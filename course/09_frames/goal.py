@@ -4,7 +4,9 @@ import math
 
 import tf2_geometry_msgs  # noqa: F401 - with it, Buffer.transform knows points
 from geometry_msgs.msg import PointStamped, TransformStamped, Twist
+from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, TransformListener
 
 STARTS = {"odom": (-2.6, -1.8), "leader/odom": (-1.6, -1.8)}  # x and y in the map, m
@@ -38,15 +40,16 @@ class Shadow(Node):
         self.create_timer(0.1, self.follow)
 
     def follow(self):
-        """Look up the point, and drive towards it; stand while there is no transform."""
+        """Look up the point, and drive towards it; stop while there is no new transform."""
         point, command = PointStamped(), Twist()
         point.header.frame_id, point.point.x = "leader/base_link", -1.0
         try:
-            goal = self.buffer.transform(point, "base_link").point
+            found = self.buffer.transform(point, "base_link")
         except TransformException:
-            goal = PointStamped().point
+            found = PointStamped()
+        goal, age = found.point, self.get_clock().now() - Time.from_msg(found.header.stamp)
         distance, angle = math.hypot(goal.x, goal.y), math.atan2(goal.y, goal.x)
-        if distance > 0.1:
+        if distance > 0.1 and age < Duration(seconds=0.5):
             command.linear.x = min(0.4, 1.5 * distance) * max(0.0, math.cos(angle))
             command.angular.z = max(-1.5, min(1.5, 2.0 * angle))
         self.publisher.publish(command)

@@ -2,14 +2,16 @@
 
 import argparse
 import math
+import signal
+import time
 
 import rclpy
 from floor import KEPT, Floor, far_from, flat, listed, points_of, seconds, stamped, steer
 from geometry_msgs.msg import PoseArray, PoseStamped, Twist
 from nav_msgs.msg import OccupancyGrid
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import String
 from tf2_ros import Buffer, TransformException, TransformListener
@@ -177,14 +179,18 @@ PROGRAMS = {"perception": Perception, "decision": Decision, "control": Control}
 
 
 def main(name):
-    """Run one of the three, by its name, until Ctrl-C or SIGTERM."""
-    rclpy.init()
+    """Run one of the three, by its name, until Ctrl-C or SIGTERM; Control stops the robot then."""
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     node = PROGRAMS[name]()
     try:
         rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except KeyboardInterrupt:
         pass
     finally:
+        if isinstance(node, Control):
+            node.publisher.publish(Twist())
+            time.sleep(0.2)  # so that it gets there
         node.destroy_node()
         rclpy.try_shutdown()
 

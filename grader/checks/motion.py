@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from grader.checks.check import Missed
-from grader.diagnosis.driving import STOP, last_command_that_moves
+from grader.diagnosis.driving import how_to_stop, last_command_that_moves
 from sim.evidence import Pose, Recording, Seconds
 
 Point = tuple[float, float]
@@ -179,7 +179,7 @@ def ends_with_a_stop(recording: Recording, *, credit: float = 0.0) -> None:
     """
     left = last_command_that_moves(recording)
     if left:
-        raise Missed("zeros as the last command", left, STOP, credit=credit)
+        raise Missed("zeros as the last command", left, how_to_stop(recording), credit=credit)
 
 
 def yaw_at(recording: Recording, stamp: Seconds) -> float:

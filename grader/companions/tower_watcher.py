@@ -3,6 +3,7 @@
 import math
 
 from geometry_msgs.msg import Twist
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import Buffer, TransformException, TransformListener
@@ -25,13 +26,15 @@ class Watcher(Node):
         self.create_timer(0.1, self.watch)
 
     def watch(self) -> None:
-        """Turn towards the target."""
+        """Turn towards the target; stop while its place isn't known."""
         target = f"{self.get_parameter('target').value}/base_link"
+        command = Twist()
         try:
             found = self.buffer.lookup_transform("tower/base_link", target, Time())
         except TransformException as error:
             self.get_logger().warning(f"{WAITING}: {error}", throttle_duration_sec=1.0)
-            return
-        command, place = Twist(), found.transform.translation
-        command.angular.z = max(-1.5, min(1.5, 2.0 * math.atan2(place.y, place.x)))
+        else:
+            if self.get_clock().now() - Time.from_msg(found.header.stamp) < Duration(seconds=0.5):
+                place = found.transform.translation
+                command.angular.z = max(-1.5, min(1.5, 2.0 * math.atan2(place.y, place.x)))
         self.publisher.publish(command)

@@ -10,13 +10,19 @@ from typing import NamedTuple
 from grader.diagnosis.rays import NO_WAY, rays_without_distance
 from sim.evidence import Recording, Seconds
 from sim.ros2.system import OWN_NAME
+from sim.world.robot import RobotModel
 
 _TWIST = "geometry_msgs/msg/Twist"
 _SOME = 2  # times that something is no accident any more
 _STUCK, _TYPO = 1.5, 0.02  # s and m: no brief touch, and no box that gives way
-STOP = (
+_SILENT = RobotModel().command_timeout  # s after which most robots stop by themselves
+_STOP = (
     "This robot stops by itself when no commands arrive; other robots drive on. Publish a Twist() with all "
     "zeros at the end."
+)
+_STOP_TRUSTING = (
+    "This robot obeys its last command until the next one arrives: silence doesn't stop it. Publish a "
+    "Twist() with all zeros at the end."
 )
 
 
@@ -82,13 +88,12 @@ def _way(recording: Recording, begin: Seconds, end: Seconds) -> float:
 
 def two_drivers(recording: Recording) -> str:
     """Two nodes that command one robot, each against the other."""
-    timeout = _timeout(recording)
     for topic, commands in _of_robots(recording):
         fights = [
             (one, other)
             for one, other, again in zip(commands, commands[1:], commands[2:], strict=False)
             if one.sender == again.sender != other.sender
-            and again.stamp - one.stamp <= timeout
+            and again.stamp - one.stamp <= _SILENT
             and one[2:] != other[2:]
         ]
         if len(fights) > _SOME:
@@ -124,19 +129,36 @@ def rare_commands(recording: Recording) -> str:
 
 
 def left_driving(recording: Recording) -> str:
-    """A last command that is no stop, after which only the robot's own time-out stops it.
+    """A last command that is no stop, after which at most the robot's own time-out stops it.
 
     `ros2 topic pub --times` can't send a stop after its messages.
     """
     for topic, last in _left(recording):
         if last.sender not in _passing_on(recording, topic) and not last.sender.startswith(f"/{OWN_NAME}"):
-            return f"The {_command_text(topic, last)}. {STOP}"
+            return f"The {_command_text(topic, last)}. {how_to_stop(recording)}"
     return ""
 
 
+def how_to_stop(recording: Recording) -> str:
+    """What to do about a last command that is no stop."""
+    return _STOP_TRUSTING if _timeout(recording) > _SILENT else _STOP
+
+
 def last_command_that_moves(recording: Recording) -> str:
-    """What is said of a last command that is no stop, once the robot's own time-out has stopped it; or ""."""
+    """What is said of a last command that is no stop, after which the program is silent; or ""."""
     return next((f"the {_command_text(*left)}" for left in _left(recording)), "")
+
+
+def still_obeyed(recording: Recording, stamp: Seconds) -> str:
+    """The hint where the robot moves at a time because nothing followed a command that moves it; or ""."""
+    for topic, commands in _of_robots(recording):
+        last = next((command for command in reversed(commands) if command.stamp <= stamp), None)
+        if last and last.moves and stamp - last.stamp > _SILENT:
+            return (
+                f"The robot still obeys its last command, {last.words} on {topic} at {last.stamp:.3g} s: "
+                "silence is not a stop. Send zeros."
+            )
+    return ""
 
 
 def _command_text(topic: str, last: VelocityCommand) -> str:
@@ -145,10 +167,9 @@ def _command_text(topic: str, last: VelocityCommand) -> str:
 
 def _left(recording: Recording) -> Iterator[tuple[str, VelocityCommand]]:
     """The topics whose last command is no stop, and that command."""
-    timeout = _timeout(recording)
     for topic, commands in _of_robots(recording):
         last = commands[-1]
-        if last.moves and recording.ended.stamp - last.stamp > timeout + 1e-6:
+        if last.moves and recording.ended.stamp - last.stamp > _SILENT + 1e-6:
             yield topic, last
 
 

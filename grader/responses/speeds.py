@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from grader.checks.check import Missed
+from grader.diagnosis.driving import still_obeyed
 from grader.responses.window import Window
 from sim.evidence import Pose, Recording, Seconds
 
@@ -50,4 +51,5 @@ def require_standing(run: Recording, window: Window, why: str, hint: str) -> Non
     for speed in speeds(window.rows(run.path)):
         if speed.linear > STANDING or speed.angular > TURNING:
             saw = f"{speed.linear:.2f} m/s and {speed.angular:.2f} rad/s at {speed.stamp:.3g} s"
+            hint = still_obeyed(run, speed.stamp) or hint
             raise Missed(f"the robot standing still, {why}", saw, hint, picture="topics", unsafe=True)

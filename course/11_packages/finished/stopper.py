@@ -1,9 +1,12 @@
 """Drives ahead, and stops before a wall."""
+import signal
+import time
+
 import rclpy
 from geometry_msgs.msg import Twist
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import LaserScan
 
 from my_robot.brakes import GAP, ahead, speed_for
@@ -26,10 +29,15 @@ class Stopper(Node):
 
 
 def main(args=None):
-    rclpy.init(args=args)
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = Stopper()
     try:
-        rclpy.spin(Stopper())
-    except (KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node)
+    except KeyboardInterrupt:
         pass
     finally:
+        node.commands.publish(Twist())  # zeros: stand still
+        time.sleep(0.2)  # so that they get there
+        node.destroy_node()
         rclpy.try_shutdown()

@@ -10,17 +10,21 @@ from grader.checks import Missed, hinting, otherwise, subscribes
 from grader.checks.actions import state
 from grader.checks.topics import longest_pause
 from grader.companions.goal_senders import Captain
-from grader.exercise import Exercise
+from grader.exercise import Exercise, Scenario
 from grader.geometry.near import is_near
 from grader.responses import same, states
 from grader.responses.course_goals import SPIN, offered, picked
+from grader.worlds.trusting import trusting
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 
 NEAR = 0.2  # radians
 SETTLING = 0.8  # seconds after the end of a goal, in which the captain sends nothing
 SLOWEST = 0.3  # seconds between two messages of feedback
 
-turn = Exercise("turn", "A robot that turns", world="yard", seconds=40, companions=[Captain], seeds=(1, 2))
+turn = Exercise("turn", "A robot that turns", scenarios=[
+    Scenario("yard", 40, 1, [Captain]),
+    Scenario(trusting("yard"), 40, 2, [Captain]),
+])
 
 
 @turn.check(3)

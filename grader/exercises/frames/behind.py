@@ -2,20 +2,34 @@
 
 import math
 import statistics
+from functools import partial
 
-from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, stands_still, subscribes
+from tf2_msgs.msg import TFMessage
+
+from grader.checks import (
+    Missed,
+    keeps_clear,
+    lasts,
+    otherwise,
+    publishes,
+    stands_still,
+    subscribes,
+    traveled,
+)
 from grader.checks.frames import TF
-from grader.companions.transforms import localization
+from grader.companions.transforms import LEADER, LosesTheLeader, localization
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Pose2D
 from grader.geometry.near import is_near
-from grader.responses import from_student, last_before
+from grader.responses import Window, from_course, from_student, last_before, require_standing
 from grader.worlds.frame_worlds import convoy, parked
+from grader.worlds.trusting import trusting
 from sim.evidence import Recording, Seconds
 
 GAP, BAND = 1.0, 0.25  # m
 NEAREST, FARTHEST = 0.7, 1.4  # m
 SETTLED, CLEAR = 9.0, 0.2  # s; rad, from which on the side is clear
+STOPPED = 1.5  # s; half a second until a transform is old, the time of a timer, and braking
 LATE = 1.0  # s, after which the frames of the two robots are connected in one of the runs
 WHY_OFF = {
     "Target and source are swapped: lookup_transform(target, source, time) gives the pose of the source, "
@@ -36,6 +50,8 @@ WHY_OFF = {
 behind = Exercise("behind", "Follow the leader", scenarios=[
     Scenario(convoy, 22, 1, companions=lambda seed: localization(convoy(seed)), name="driving"),
     Scenario(parked, 14, 2, companions=lambda seed: localization(parked(seed), LATE), name="parked"),
+    Scenario(trusting(convoy), 15, 3, companions=lambda seed: [partial(LosesTheLeader, convoy(seed))],
+             name="lost"),
 ])
 
 
@@ -47,7 +63,7 @@ def subscribes_and_drives(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist", at_least=5)
 
 
-@behind.check(11, after=subscribes_and_drives, only="driving", hints=WHY_OFF)
+@behind.check(9, after=subscribes_and_drives, only="driving", hints=WHY_OFF)
 def keeps_the_gap(run: Recording) -> None:
     """From 9 s on the robot is 0.7 m to 1.4 m from the leader, for at least nine tenths of the time."""
     gaps = _gaps(run)
@@ -61,7 +77,7 @@ def keeps_the_gap(run: Recording) -> None:
         raise Missed(expected, saw, about=(gaps,), picture="path")
 
 
-@behind.check(5, after=subscribes_and_drives, only="parked", hints=WHY_OFF)
+@behind.check(4, after=subscribes_and_drives, only="parked", hints=WHY_OFF)
 def stands_behind_one_who_stands(run: Recording) -> None:
     """When the leader has stopped, the robot stops within 0.25 m of the point 1 m behind it."""
     robot, leader = run.path[-1], run.tracks["leader"][-1]
@@ -72,11 +88,28 @@ def stands_behind_one_who_stands(run: Recording) -> None:
     stands_still(run, last=2.0, tolerance=0.05)
 
 
+@behind.check(3, after=subscribes_and_drives, only="lost")
+def stops_when_it_knows_nothing_new(run: Recording) -> None:
+    """When no new transforms of the leader arrive, the robot stops within 1.5 s."""
+    last = max(row.stamp for row in from_course(run, "/tf") if _is_of_the_leader(row.message))
+    if traveled(run.during(last - 2.0, last)) < 0.1:
+        hint = "First let the robot follow the leader."
+        raise Missed(f"a robot that follows until {last:.3g} s", "one that stands still", hint)
+    hint = ("Time() is the newest time that is known, however old: the lookup goes on succeeding for 10 s. "
+            "Compare the stamp of what it returns with the clock; where it is older than 0.5 s, send zeros.")
+    why = f"{STOPPED:g} s after the leader's last transform, at {last:.3g} s"
+    require_standing(run, Window(last + STOPPED, run.ended.stamp), why, hint)
+
+
 @behind.check(4, after=keeps_the_gap)
 def touches_nothing(run: Recording) -> None:
     """The robot touches nothing and no one."""
     keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
     lasts(run, "/cmd_vel")
+
+
+def _is_of_the_leader(message: TFMessage) -> bool:
+    return any(transform.child_frame_id == LEADER for transform in message.transforms)
 
 
 def _looks_from_the_leader(run: Recording) -> bool:

@@ -10,6 +10,7 @@ from grader.checks.motion import after_a_touch, is_hopeless, length
 from grader.checks.navigation import ACTION, TYPE, end_of, feedback_faults, goals_from_course, to_go
 from grader.companions.goals import GoalClient
 from grader.companions.maps import bringup, made_for
+from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window
 from grader.worlds.rooms import blocked, world_of
@@ -182,9 +183,10 @@ def obeys_a_cancel(run: Recording) -> None:
     ended = _canceled(run, first)
     later = Window(ended + 0.5, ended + 1.5).rows(run.path)
     moved = math.dist(later[0][1:3], later[-1][1:3]) if later else 0.0
-    if moved > 0.02:
-        hint = "Publish zeros before you return the result."
-        saw = f"it drove on for {moved:.2f} m"
+    silence = still_obeyed(run, ended + 1.5)
+    if moved > 0.02 or silence:
+        hint = "Publish zeros before you return the result." if moved > 0.02 else silence
+        saw = f"it drove on for {moved:.2f} m" if moved > 0.02 else "no zeros: other robots would drive on"
         raise Missed("the robot standing still after the cancel", saw, hint, unsafe=True)
 
 

@@ -9,6 +9,7 @@ from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
 from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, requests_from_course, require_standing, same
+from grader.worlds.trusting import trusting
 from sim.evidence import Call, Recording, Seconds
 from sim.network import Network
 
@@ -22,11 +23,10 @@ BROKEN = ("A broken cable counts as pressed: as long as the button is silent, re
 RADIO = Network(delay=0.05, jitter=0.04)  # s; between the student's laptop and the robot
 
 
-def _scenario(seed: int, network: Network | None = None) -> Scenario:
-    return Scenario("yard", 14, seed, [EmergencyOperator], network=network)
-
-
-latch = Exercise("latch", "An emergency stop that latches", scenarios=[_scenario(1), _scenario(2, RADIO)])
+latch = Exercise("latch", "An emergency stop that latches", scenarios=[
+    Scenario("yard", 14, 1, [EmergencyOperator]),
+    Scenario(trusting("yard"), 14, 2, [EmergencyOperator], network=RADIO),
+])
 
 
 class Times(NamedTuple):

@@ -9,6 +9,7 @@ from grader.companions.drivers import JOY, NAV, Drivers
 from grader.companions.radios import WIFI
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, require_standing, same
+from grader.worlds.trusting import trusting
 from sim.evidence import Message, Recording, Seconds
 
 OLD, BRAKING = 0.85, 1.0  # s: certainly older than the time-out, over the network, too; to stop
@@ -19,7 +20,7 @@ FIRST = "Check the joystick first: while its command is less than 0.5 s old, the
 
 mux = Exercise("mux", "Two drivers, one robot", scenarios=[
     Scenario("yard", 15, 1, [Drivers]),
-    Scenario("yard", 15, 2, [Drivers], network=WIFI),
+    Scenario(trusting("yard"), 15, 2, [Drivers], network=WIFI),
 ])
 
 

@@ -11,11 +11,13 @@ from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, subs
 from grader.checks.twists import OUT, TWIST, Speeds, speeds, speeds_text
 from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
 from grader.companions.radios import BadRadio, Radio
+from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, same
 from grader.responses.speeds import STANDING
 from grader.responses.speeds import speeds as speeds_along
 from grader.worlds.rooms import free_start, long_hall, short_sighted
+from grader.worlds.trusting import trusting
 from sim import Process
 from sim.evidence import Recording, Seconds, since_start, stamps
 
@@ -48,7 +50,7 @@ REMAPPED = [(OUT, RAW)]
 
 guard = Exercise("guard", "A guard for the robot", scenarios=[
     Scenario(free_start, 40, 1, [Radio, Process(CarelessDriver, remappings=REMAPPED)]),
-    Scenario(lambda seed: short_sighted(long_hall(seed)), 24, 2,
+    Scenario(trusting(lambda seed: short_sighted(long_hall(seed))), 24, 2,
              [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
 ])
 
@@ -145,6 +147,7 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str) -> None
         if fastest and fastest.linear > STANDING:
             expected = f"the robot standing still, {SETTLING:g} s after {what} (at {begin:.3g} s)"
             saw = f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s"
+            hint = still_obeyed(run, begin + SETTLING) or hint
             raise Missed(expected, saw, hint, picture="topics", unsafe=True)
 
 

@@ -7,7 +7,9 @@ import re
 from grader.checks import Missed, ends_with_a_stop, offers, otherwise, series, traveled, wrong_response
 from grader.checks.services import call_text, course_calls, is_success, response_fields
 from grader.companions.service_clients import Pilot
-from grader.exercise import Exercise
+from grader.diagnosis.driving import still_obeyed
+from grader.exercise import Exercise, Scenario
+from grader.worlds.trusting import trusting
 from sim.evidence import Call, Recording
 
 ARM = "/arm"
@@ -21,8 +23,10 @@ NO_MORE = ("request.data is the state that the caller wants: self.armed = reques
            "send zeros.")
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
 
-arming = Exercise("arming", "A robot that drives only when it is armed", world="yard", seconds=17,
-                  companions=[Pilot], seeds=(1, 2))
+arming = Exercise("arming", "A robot that drives only when it is armed", scenarios=[
+    Scenario("yard", 17, 1, [Pilot]),
+    Scenario(trusting("yard"), 17, 2, [Pilot]),
+])
 
 
 @arming.check(3)
@@ -63,7 +67,7 @@ def reports_its_state(run: Recording) -> None:
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
     first = course_calls(run, ARM, CALLS)[0]
-    _stands(run.during(0.0, first.requested), "before the first call", NOT_YET)
+    _stands(run, run.during(0.0, first.requested), "before the first call", NOT_YET)
     _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
         # From the first pose to the last: they are up to 50 ms inside the phase, which may be short.
@@ -78,7 +82,7 @@ def drives_while_armed(run: Recording) -> None:
 def stands_while_disarmed(run: Recording) -> None:
     """While it is not armed, the robot stands still, at the start as well."""
     for call, phase in _phases(run, armed=False):
-        _stands(phase, f"after {call_text(call)}", NO_MORE)
+        _stands(run, phase, f"after {call_text(call)}", NO_MORE)
     ends_with_a_stop(run, credit=0.5)
 
 
@@ -90,13 +94,14 @@ def _begins_when_armed(run: Recording) -> None:
             begin = max(before.requested + SETTLING, call.requested - JUST)
             armed = run.during(made[1].requested + SETTLING, made[2].requested)
             hint = INVERTED if _is_inverted(run) else NO_MORE if traveled(armed) > 10 * STILL else SWITCHES
-            _stands(run.during(begin, call.requested), f"until {call_text(call)}", hint)
+            _stands(run, run.during(begin, call.requested), f"until {call_text(call)}", hint)
 
 
-def _stands(phase: Recording, when: str, hint: str) -> None:
+def _stands(run: Recording, phase: Recording, when: str, hint: str) -> None:
     driven = traveled(phase)
     if driven > STILL:
         expected, saw = f"a robot that stands still {when}", f"it moved {driven:.2f} m"
+        hint = still_obeyed(run, phase.stamp) or hint
         raise Missed(expected, saw, hint, picture="path", unsafe=True)
 
 

@@ -8,7 +8,7 @@ from grader.checks.services import call_text, is_refusal, is_success, response_f
 from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import ModeReader, Operator
 from grader.exercise import Exercise, Scenario
-from grader.responses import same
+from grader.responses import Window, last_before, same
 from sim.evidence import Call, Recording, Seconds
 
 ARM, RESET = "/arm", "/reset"
@@ -59,7 +59,7 @@ def drives_as_the_mode_says(run: Recording) -> Seconds:
             armed = call.request.data
             _is_accepted(call, "Set response.success = True, and return response.")
         why = f"in the mode {mode}, {'armed' if armed else 'not armed'}"
-        _commands(phase, MODES[mode] if armed else STOPPED, why)
+        _commands(run, phase, MODES[mode] if armed else STOPPED, why)
     return bump
 
 
@@ -79,7 +79,7 @@ def refuses_other_modes(run: Recording) -> None:
 def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     """When the robot bumps into something it stops, and refuses to be armed until it is reset."""
     again = course_calls(run.during(bump), ARM)[0]
-    _commands(run.during(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
+    _commands(run, Window(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
     refusal = is_refusal(again)
     if not refusal or not again.response.message.strip():
         guess = ("In arm: if request.data and self.bumped, set success to False and let the message say what "
@@ -89,7 +89,7 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
         missed.unsafe = is_success(again)  # it lets itself be armed at the wall
         raise missed
     reset = course_calls(run, RESET)[0]
-    _commands(run.during(again.requested, reset.requested), STOPPED, "after arming was refused")
+    _commands(run, Window(again.requested, reset.requested), STOPPED, "after arming was refused")
 
 
 @modes.check(3, after=stops_when_it_bumps, only="operated")
@@ -98,12 +98,12 @@ def drives_on_after_a_reset(run: Recording) -> None:
     reset = course_calls(run, RESET)[0]
     _is_accepted(reset)
     arm, disarm = course_calls(run, ARM, at_least=6)[-2:]
-    _commands(run.during(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
+    _commands(run, Window(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
     again = ("reset has to undo what the bump set: self.bumped = False. Still touching the wall isn't a "
              "new bump.")
     _is_accepted(arm, again)
-    back = run.during(arm.requested + SOON, disarm.requested)
-    _commands(back, MODES["back"], "in the mode back, armed after a reset")
+    back = Window(arm.requested + SOON, disarm.requested)
+    _commands(run, back, MODES["back"], "in the mode back, armed after a reset")
     ends_with_a_stop(run, credit=0.5)
 
 
@@ -121,12 +121,12 @@ def _mode(call: Call) -> str:
     return plain(call.request).get("mode", "")
 
 
-def _phases(run: Recording) -> list[tuple[Call | None, Recording]]:
-    """The calls, each with the run until the next one; first no call, and the time before any."""
+def _phases(run: Recording) -> list[tuple[Call | None, Window]]:
+    """The calls, each with the time until the next one; first no call, and the time before any."""
     calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.requested)
     begins = [0.0, *(call.requested for call in calls)]
     ends = [*begins[1:], run.ended.stamp]
-    phases = (run.during(begin + SOON, end) for begin, end in zip(begins, ends, strict=True))
+    phases = (Window(begin + SOON, end) for begin, end in zip(begins, ends, strict=True))
     return list(zip([None, *calls], phases, strict=True))
 
 
@@ -135,13 +135,18 @@ def _is_accepted(call: Call, guess: str = "") -> None:
         raise wrong_response(f"success=True for {call_text(call)}", call, guess)
 
 
-def _commands(run: Recording, wanted: Velocity, why: str, guess: str = UNARMED) -> None:
-    """All commands are these; without any the robot stands still. guess: for a robot that should stand."""
-    sent = run.messages("/cmd_vel")
+def _commands(run: Recording, span: Window, wanted: Velocity, why: str, guess: str = UNARMED) -> None:
+    """All commands are these. guess: for a robot that should stand.
+
+    There the command before counts as well: a robot without a time-out goes on obeying it.
+    """
+    sent = span.before(span.end).rows(run.messages("/cmd_vel"))
+    obeyed = None if any(wanted) else last_before(run.messages("/cmd_vel"), span.begin)
+    sent = [obeyed, *sent] if obeyed else sent
     found = [(row.stamp, row.message.linear.x, row.message.angular.z) for row in sent]
     wrong = [it for it in found if not same(it[1:], wanted, 1e-3)]
-    if wrong or (not found and any(wanted) and run.stamp - run.begin > SOON):
-        at, v, w = wrong[0] if wrong else (run.begin, 0.0, 0.0)
+    if wrong or (not found and any(wanted) and span.end - span.begin > SOON):
+        at, v, w = wrong[0] if wrong else (span.begin, 0.0, 0.0)
         saw = f"({v:g} m/s, {w:g} rad/s) at {at:.3g} s" if wrong else f"no command from {at:.3g} s on"
         expected = f"({wanted[0]:g} m/s, {wanted[1]:g} rad/s) {why}"
         hint = DRIVE if any(wanted) else guess

@@ -259,6 +259,14 @@ class CanceledButTurnsOn(SpinServer):
         return Spin.Result(error_msg=f"canceled after {self.turned:.2f} rad")
 
 
+class CanceledWithoutAStop(SpinServer):
+    """Leaves the stop to the robot."""
+
+    def stop(self, goal_handle):
+        goal_handle.canceled()
+        return Spin.Result(error_msg=f"canceled after {self.turned:.2f} rad")
+
+
 class CanceledWithoutAWord(SpinServer):
     def stop(self, goal_handle):
         super().stop(goal_handle)

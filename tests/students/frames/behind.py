@@ -6,8 +6,10 @@ import rclpy
 import tf2_geometry_msgs
 from geometry_msgs.msg import PointStamped, Twist
 from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
+from tf2_msgs.msg import TFMessage
 from tf2_ros import Buffer, TransformException, TransformListener
 
 
@@ -30,7 +32,13 @@ class Follower(Node):
             self.get_logger().info(str(error))
             self.publisher.publish(Twist())
             return
-        self.drive(*self.goal(found))
+        if self.is_old(found.header):
+            self.publisher.publish(Twist())
+        else:
+            self.drive(*self.goal(found))
+
+    def is_old(self, header):
+        return self.get_clock().now() - Time.from_msg(header.stamp) > Duration(seconds=0.5)
 
     def goal(self, found):
         point = PointStamped()
@@ -60,15 +68,59 @@ class ByTransform(Follower):
         point = PointStamped()
         point.header.frame_id, point.point.x = "leader/base_link", -1.0
         try:
-            moved = self.buffer.transform(point, "base_link").point
+            moved = self.buffer.transform(point, "base_link")
         except TransformException:
             return
-        self.drive(moved.x, moved.y)
+        if self.is_old(moved.header):
+            moved.point.x = moved.point.y = 0.0
+        self.drive(moved.point.x, moved.point.y)
+
+
+class AsksForAMomentAgo(Follower):
+    """A design of its own: looks up where the leader was 0.3 s ago, which fails when nothing new arrives."""
+
+    def follow(self):
+        then = self.get_clock().now() - Duration(seconds=0.3)
+        try:
+            self.drive(*self.goal(self.buffer.lookup_transform(self.own, self.leader, then)))
+        except TransformException:
+            self.publisher.publish(Twist())
 
 
 def main():
     rclpy.init()
     rclpy.spin(Follower())
+
+
+class BelievesTheNewest(Follower):
+    """Time() is the newest that is known, however old."""
+
+    def is_old(self, header):
+        return False
+
+
+class SaysNothingWhenItIsOld(Follower):
+    """Silence isn't a stop."""
+
+    def follow(self):
+        found = self.buffer.can_transform(self.own, self.leader, Time())
+        if not found or not self.is_old(self.buffer.lookup_transform(self.own, self.leader, Time()).header):
+            super().follow()
+
+
+class AgeOfTheArrival(Follower):
+    """Its own robot's transforms arrive all the time."""
+
+    def __init__(self):
+        super().__init__()
+        self.arrived = self.get_clock().now()
+        self.create_subscription(TFMessage, "/tf", self.on_transforms, 10)
+
+    def on_transforms(self, message):
+        self.arrived = self.get_clock().now()
+
+    def is_old(self, header):
+        return self.get_clock().now() - self.arrived > Duration(seconds=0.5)
 
 
 class DrivesAtTheLeader(Follower):

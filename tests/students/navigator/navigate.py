@@ -410,6 +410,14 @@ class DrivesOnAfterTheCancel(Navigator):
         return NavigateToPose.Result()
 
 
+class CanceledWithoutAStop(Navigator):
+    """Leaves the stop to the robot."""
+
+    def canceled(self, goal_handle):
+        goal_handle.canceled()
+        return NavigateToPose.Result()
+
+
 class NoFeedback(Navigator):
     def tell(self, goal_handle, path, began):
         pass
@@ -501,6 +509,7 @@ rejects_all = main_of(RejectsAll)
 refuses_to_cancel = main_of(RefusesToCancel)
 ignores_the_cancel = main_of(IgnoresTheCancel)
 drives_on_after_the_cancel = main_of(DrivesOnAfterTheCancel)
+canceled_without_a_stop = main_of(CanceledWithoutAStop)
 no_feedback = main_of(NoFeedback)
 feedback_by_odometry = main_of(FeedbackByOdometry)
 no_estimate = main_of(NoEstimate)

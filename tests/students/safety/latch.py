@@ -207,6 +207,13 @@ class TrustsSilence(Stop):
         pass
 
 
+class SilentWithACutCable(SaysNothingWhileStopped):
+    """Stops passing commands on, and leaves the stop to the robot."""
+
+    def watch(self):
+        self.stopped |= self.is_silent()
+
+
 class LetsGoWithTheCable(Stop):
     """Counts silence, but only as long as it lasts."""
 

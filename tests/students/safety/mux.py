@@ -37,12 +37,20 @@ class Mux(Node):
 
 
 class PassesOn(Mux):
-    """A design of its own: without a timer: it passes what no higher priority has blocked lately."""
+    """A design of its own: passes on what no higher priority has blocked lately; its timer only stops."""
 
     def on_message(self, topic, msg):
         super().on_message(topic, msg)
         if topic == self.topics[0] or not self.is_young(self.topics[0]):
             self.commands.publish(msg)
+
+    def choose(self):
+        if not any(map(self.is_young, self.topics)):
+            self.commands.publish(Twist())
+
+
+class SilentWhenBothAre(PassesOn):
+    """Trusts the robot to stop by itself."""
 
     def choose(self):
         pass

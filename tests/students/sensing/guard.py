@@ -52,11 +52,12 @@ class Guard(Node):
 
 
 class GuardInTheCallback(Node):
-    """Decides when a command comes: without commands, the robot stops by itself."""
+    """Decides when a command comes; a timer stops the robot where none does."""
 
     def __init__(self):
         super().__init__("safety_filter")
-        self.front, self.stamp = 0.0, None
+        self.front, self.stamp, self.commanded = 0.0, None, self.get_clock().now()
+        self.create_timer(0.1, self.stop_without_commands)
         self.pub = self.create_publisher(Twist, "cmd_vel", 10)
         self.create_subscription(LaserScan, "lidar", self.scan_cb, qos_profile_sensor_data)
         self.create_subscription(Twist, "cmd_vel_raw", self.cmd_cb, 10)
@@ -69,7 +70,12 @@ class GuardInTheCallback(Node):
         ]
         self.front, self.stamp = min(front), Time.from_msg(msg.header.stamp)
 
+    def stop_without_commands(self):
+        if self.get_clock().now() - self.commanded > Duration(seconds=0.4):
+            self.pub.publish(Twist())
+
     def cmd_cb(self, msg):
+        self.commanded = self.get_clock().now()
         fresh = self.stamp is not None and self.get_clock().now() - self.stamp < Duration(seconds=0.4)
         if not fresh:
             msg = Twist()
@@ -139,6 +145,21 @@ class Watchdogs(Guard):
         if self.scan and self.command:
             self.filter(safe)
         self.publisher.publish(safe)
+
+
+class SilentWithoutCommands(GuardInTheCallback):
+    """Trusts the robot to stop by itself when the driver falls silent."""
+
+    def stop_without_commands(self):
+        pass
+
+
+class SilentWhileBlind(Guard):
+    """Publishes only what it lets through, and no zeros."""
+
+    def decide(self):
+        if self.scan and self.command and self.scan_age() < 0.3 and self.command_age() < 0.3:
+            super().decide()
 
 
 class TurnsBetween(Guard):

@@ -128,6 +128,18 @@ class StateMachine(Node):
             self.pub.publish(Twist(linear=Vector3(x=v), angular=Vector3(z=w)))
 
 
+class SilentUnlessArmed(StateMachine):
+    """Trusts the robot to stop by itself."""
+
+    def stop(self):
+        pass
+
+    def on_bumper(self, msg):
+        if msg.data and not self.pressed:
+            self.state = State.BUMPED
+        self.pressed = msg.data
+
+
 def main(args=None):
     """A node that is put together in a function, with threads."""
     rclpy.init(args=args)
