@@ -10,11 +10,12 @@ A row, [[rule]], has
                 without the types that it uses at "TOPIC/EXERCISE: has_types"
     wrong       nodes on the exercise's score page that break the rule, and lose points at this check
     right       nodes there that keep it, and earn everything
+    program.CELL  the wrong node that is the program of this cell, adapted by renaming: see programs.py
     technique   where the rule recommends a way to write it: a pattern that the right nodes' sources have
 
 or, in place of check, wrong and right, `unchecked = "CATEGORY: reason"`; a technique is then one that a right
 node of any exercise has. The table [no_rule] has, by cell, words of sentences that state no rule, though they
-have one of the words that rules mostly have.
+have one of the words that rules mostly have; [no_node], by cell, why no node is adapted from its program.
 """
 
 from __future__ import annotations
@@ -37,7 +38,6 @@ from tests.exercises.seeds import exercise_of, right_nodes
 ROOT = Path(__file__).parents[2]
 TABLES = Path(__file__).parent
 LESSONS = tuple(sorted(path.parent.name for path in ROOT.glob("course/*/lesson.ipynb")))
-
 
 # Why a rule has no check.
 CATEGORIES = {
@@ -67,6 +67,7 @@ class Rule:
     right: tuple[str, ...] = ()
     technique: str = ""
     unchecked: str = ""
+    programs: tuple[tuple[str, str], ...] = ()
 
     @property
     def category(self) -> str:
@@ -85,6 +86,7 @@ class Table:
 
     rules: tuple[Rule, ...]
     no_rule: tuple[tuple[str, str], ...] = ()
+    no_node: tuple[tuple[str, str], ...] = ()
 
 
 def read_table(text: str) -> Table:
@@ -93,12 +95,14 @@ def read_table(text: str) -> Table:
     rules = [
         Rule(
             quotes=_quotes(row.pop("in")),
+            programs=_quotes(row.pop("program", {})),
             **{key: _names(row.pop(key)) for key in ("wrong", "right") if key in row},
             **row,
         )
         for row in data.pop("rule")
     ]
-    return Table(tuple(rules), _quotes(data.pop("no_rule", {})), **data)
+    more = {key: _quotes(data.pop(key, {})) for key in ("no_rule", "no_node")}
+    return Table(tuple(rules), **more, **data)
 
 
 def _names(value: str | list[str]) -> tuple[str, ...]:

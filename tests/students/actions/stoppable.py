@@ -270,6 +270,22 @@ def main_without_return():
     threaded(GoesOn)
 
 
+class SleepingServer(StoppableServer):
+    """Lesson 4's: with one thread, no cancel request is received while it sleeps."""
+
+    def execute(self, goal_handle):
+        sequence = [0, 1]
+        while len(sequence) <= goal_handle.request.order:
+            if goal_handle.is_cancel_requested:
+                goal_handle.canceled()
+                return Fibonacci.Result(sequence=sequence)
+            sequence.append(sequence[-1] + sequence[-2])
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=sequence))
+            time.sleep(0.5)
+        goal_handle.succeed()
+        return Fibonacci.Result(sequence=sequence)
+
+
 def main_that_breaks_out_of_the_loop():
     class Breaks(StoppableServer):
         def execute(self, goal_handle):

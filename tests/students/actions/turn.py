@@ -259,12 +259,33 @@ class CanceledButTurnsOn(SpinServer):
         return Spin.Result(error_msg=f"canceled after {self.turned:.2f} rad")
 
 
-class CanceledWithoutAStop(SpinServer):
-    """Leaves the stop to the robot."""
+class AsksWhetherToEnd(SpinServer):
+    """As the lesson's server: `ends_early` returns a result if the goal has to end now."""
 
-    def stop(self, goal_handle):
+    async def execute(self, goal_handle):
+        target, self.turned = goal_handle.request.target_yaw, 0.0
+        while abs(self.turned) < abs(target):
+            if result := self.ends_early(goal_handle, self.turned, 0.0):
+                return result
+            self.turn(math.copysign(self.speed, target))
+            self.tell(goal_handle)
+            await self.pause(self.step)
+        self.turn(0.0)
+        goal_handle.succeed()
+        return Spin.Result()
+
+    def ends_early(self, goal_handle, turned, seconds):
+        return self.stop(goal_handle) if goal_handle.is_cancel_requested else None
+
+
+class CanceledWithoutAStop(AsksWhetherToEnd):
+    """Lesson 4's: leaves the stop to the robot."""
+
+    def ends_early(self, goal_handle, turned, seconds):
+        if not goal_handle.is_cancel_requested:
+            return None
         goal_handle.canceled()
-        return Spin.Result(error_msg=f"canceled after {self.turned:.2f} rad")
+        return Spin.Result(error_msg=f"canceled after {turned:.2f} rad")
 
 
 class CanceledWithoutAWord(SpinServer):

@@ -147,6 +147,15 @@ class OneLineForTwoLevels(Battery):
         log(text)
 
 
+class OneLineInALoop(Node):
+    """Lesson 1's: one line of code logs at two levels."""
+
+    def __init__(self):
+        super().__init__("battery")
+        for log in (self.get_logger().info, self.get_logger().warning):
+            log("Battery: 90 %")
+
+
 class SaysNothing(Battery):
     def report(self, text):
         pass

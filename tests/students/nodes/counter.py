@@ -124,6 +124,17 @@ class CallsTheCallback(Counter):
         self.create_timer(0.5, self.tick())
 
 
+class CallsTheCallbackAtOnce(Node):
+    """Lesson 1's: with parentheses."""
+
+    def __init__(self):
+        super().__init__("counter")
+        self.create_timer(0.5, self.tick())
+
+    def tick(self):
+        self.get_logger().info("Count: 1")
+
+
 class AllAtOnce(Counter):
     def __init__(self):
         Node.__init__(self, "counter")

@@ -74,6 +74,23 @@ def without_spin(args=None):
     clean_up(Countdown())
 
 
+def without_spin_or_try(args=None):
+    """Lesson 1's first one."""
+    rclpy.init(args=args)
+    node = Countdown()
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+def careless(args=None):
+    """Lesson 1's second one."""
+    rclpy.init(args=args)
+    node = Countdown()
+    rclpy.spin(node)
+    node.get_logger().info("Engine off")
+    rclpy.shutdown()
+
+
 def without_init():
     node = Countdown()
     try:

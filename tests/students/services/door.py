@@ -233,6 +233,13 @@ class IgnoresSuccess(Visitor):
         self.timer.cancel()
 
 
+class CarelessVisitor(Visitor):
+    """Lesson 3's: doesn't look at the answer."""
+
+    def on_response(self, future):
+        self.get_logger().info("The door is open!")
+
+
 class InfoForWarning(Visitor):
     def on_response(self, future):
         if future.result().success:

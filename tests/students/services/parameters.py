@@ -160,7 +160,7 @@ class ReadOnceInInit(Cruiser):
 
     def drive(self):
         msg = Twist()
-        msg.linear.x = self.speed
+        msg.linear.x, msg.angular.z = self.speed, 0.0
         self.publisher.publish(msg)
 
 

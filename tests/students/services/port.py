@@ -140,9 +140,10 @@ def loop_in_a_group():
 
 
 class LoopInTheConstructor(Thermometer):
-    """The constructor never returns, and the node never spins."""
+    """Lesson 3's: the constructor never returns, and the node never spins."""
 
-    def start(self):
+    def __init__(self):
+        super().__init__()
         while rclpy.ok():
             self.work()
             time.sleep(0.2)

@@ -15,12 +15,13 @@ class SquareDriver(Node):
     """By ticks of a timer: 2 s for each side, 2 s for each corner."""
 
     topic, sides, speed, turn = "/cmd_vel", 4, 0.5, math.pi / 4
+    period = 0.1
 
     def __init__(self):
         super().__init__("square_driver")
         self.publisher = self.create_publisher(Twist, self.topic, 10)
         self.ticks = 0
-        self.create_timer(0.1, self.drive)
+        self.create_timer(self.period, self.drive)
 
     def drive(self):
         msg = Twist()
@@ -148,6 +149,12 @@ class OneSideOnly(SquareDriver):
 
 class NeverStops(SquareDriver):
     sides = 10**6
+
+
+class LazyDriver(SquareDriver):
+    """Lesson 2's: a command every 2 s."""
+
+    period = 2.0
 
 
 class CommandsTooRarely(Node):

@@ -55,6 +55,14 @@ class ThermometerWithAsyncTimer(Thermometer):
         super().measure()
 
 
+class AnotherTypeAlone(Node):
+    """Lesson 2's: a publisher of another type."""
+
+    def __init__(self):
+        super().__init__("thermometer")
+        self.create_publisher(Float64, "/sensor/temperature", 10)
+
+
 class Float64InPlaceOfFloat32(Thermometer):
     type = Float64
 
