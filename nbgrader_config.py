@@ -1,4 +1,4 @@
-"""nbgrader for this course. Run it in this folder, as its manual says: `nbgrader autograde 01_nodes`, ...
+"""nbgrader for this course. Run it in this folder, as its manual says: `nbgrader export`, ...
 
 solutions/ is the source and exercises/ the release. Everything about a class is in class/, which git ignores.
 """
@@ -45,6 +45,11 @@ c.Validator.Execute.timeout = 30
 # kernels that mark or validate, what goes to stderr shows on stdout.
 c.Execute.extra_arguments = ["--IPKernelApp.exec_lines=import sys; sys.stderr.name = 'stdout'"]
 
+# autograde runs students' code without a sandbox. So it refuses, before it removes anything, by default.
+if "autograde" in sys.argv[1:2]:
+    from grader.marking.secret import require_acceptance
+
+    require_acceptance()
 # Marking uses private worlds and seeds; Validate never sees the secret they come from.
 c.Autograde.pre_convert_hook = "grader.marking.secret.set_course_secret"
 c.Autograde.post_convert_hook = "grader.marking.secret.remove_course_secret"

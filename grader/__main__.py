@@ -7,7 +7,7 @@ import importlib.util
 import sys
 
 COMMANDS = {  # module, function and arguments
-    "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
+    "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT | --check"),
     "due": ("grader.marking.command.due_cli", "main", "[ASSIGNMENT WHEN]"),
     "hub": ("grader.marking.extras.hub.cli", "main", "[--check]"),
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),

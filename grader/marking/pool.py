@@ -118,7 +118,7 @@ class Pool:
                 why = str(reason)
             if self._closed:
                 break
-        return refused_result(task, why)
+        return broken_result(task, why)
 
     def _mark_once(self, task: MarkingTask) -> Result:
         """Mark in new processes. Raises NotMarked and SandboxFailed."""
@@ -185,10 +185,9 @@ class Pool:
         self._running.discard(process)
 
 
-def refused_result(task: MarkingTask, why: str) -> Result:
-    """The result of a submission that could not be marked for an unknown reason."""
-    reason = f"This could not be marked; your instructor will look at it. {why}"
-    return Result(task.student, task.assignment, task.key, "refused", reason, flags=[why])
+def broken_result(task: MarkingTask, why: str) -> Result:
+    """The result of a submission that could not be marked, perhaps through no fault of the student's."""
+    return Result(task.student, task.assignment, task.key, "broken", why)
 
 
 def _ending(process: ConfinedProcess) -> str:

@@ -1,4 +1,4 @@
-"""Shows the progress of marking: one changing line on a terminal, one line for each submission elsewhere."""
+"""Shows progress, as of marking: one changing line on a terminal, one line for each submission elsewhere."""
 import shutil
 import sys
 import time
@@ -28,23 +28,24 @@ class ProgressLine:
     def add_result(self, result: Result) -> None:
         """Show that a submission is marked."""
         most = sum(cell.max for notebook in result.notebooks for cell in notebook.cells)
-        self.add_line(f"{result.student}: {result.points:g} of {most:g} points, {result.verdict}")
+        points = f"{result.points:g} of {most:g} points, {result.verdict}"
+        self.add_line(f"{result.student}: {points if result.verdict != 'broken' else 'could not be judged'}")
 
     def skip(self) -> None:
         """Count one that is marked already, and show nothing."""
         self._skipped += 1
 
-    def add_line(self, text: str) -> None:
-        """Show that one more is done."""
-        self._done += 1
+    def add_line(self, text: str, count: int = 1) -> None:
+        """Show that `count` more are done."""
+        self._done += count
         text = printable(text)
-        count = f"{self._done + self._skipped} of {self._total}"
+        done = f"{self._done + self._skipped} of {self._total}"
         if not self._is_terminal:
-            print(f"{count}  {text}", file=self._stream, flush=True)
+            print(f"{done}  {text}", file=self._stream, flush=True)
             return
         rate = self._done / max(self._clock() - self._begin, 1e-3)
         left = _duration((self._total - self._skipped - self._done) / rate)
-        line = f"{count}, {rate:.2g} each second, {left} left  {text}"
+        line = f"{done}, {rate:.2g} each second, {left} left  {text}"
         width = shutil.get_terminal_size().columns - 1
         print(CLEAR + line[:width], end="", file=self._stream, flush=True)
 

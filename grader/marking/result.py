@@ -12,8 +12,9 @@ from grader.marking.errors import ResultError
 MAX_BYTES = 60_000_000  # of one submission's result
 
 # marked: as usual. repaired: the notebook was repaired first. stopped: the student's code was stopped, or
-# ended its process, before the last cell. refused: nothing could be run.
-VERDICTS = ("marked", "repaired", "stopped", "refused")
+# ended its process, before the last cell. refused: nothing could be run. broken: nothing could be judged,
+# because the course or this machine failed; such a result is never entered.
+VERDICTS = ("marked", "repaired", "stopped", "refused", "broken")
 VERDICT_FIELDS = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # texts
 
 
@@ -46,7 +47,7 @@ class Result:
 
     key: hexadecimal digest of everything that was marked: submission, release, secret, version.
     repairs: a sentence for each repair. flags: one for each thing that no honest submission does.
-    reason: why it was stopped or refused; "" otherwise.
+    reason: why it was stopped, refused or broken; "" otherwise.
     timings: seconds by name ("total", "start", and each cell as "notebook/cell"; "judged" are simulated
         ones, of the runs that were judged); peak memory in MB as "memory". They are no part of the grade.
     """
@@ -65,6 +66,19 @@ class Result:
     def points(self) -> float:
         """The points of the submission."""
         return math.fsum(cell.points for notebook in self.notebooks for cell in notebook.cells)
+
+    @property
+    def judged(self) -> bool:
+        """Whether at least one test cell was judged."""
+        return any(cell.verdicts for notebook in self.notebooks for cell in notebook.cells)
+
+    @property
+    def why_not_judged(self) -> str:
+        """The first reason, flag or error of its notebooks."""
+        cells = [cell for note in self.notebooks for cell in note.notebook.get("cells", ())]
+        outputs = [output for cell in cells for output in cell.get("outputs", ())]
+        errors = [f"{one['ename']}: {one['evalue']}" for one in outputs if one["output_type"] == "error"]
+        return next(filter(None, (self.reason, *self.flags, *errors)), "its test cells ran no nodes")
 
     def to_json(self) -> str:
         """As text. The same result gives the same text."""

@@ -15,6 +15,12 @@ from pathlib import Path
 from grader.grading import VARIABLE
 from grader.seeds import secret_of_student
 
+ACCEPTED = "RUN_WITHOUT_SANDBOX"  # an environment variable, with the value "yes"
+WITHOUT_SANDBOX = (
+    "Not marked: `nbgrader autograde` runs students' code without a sandbox, where it can read and change "
+    "all your files. Use `python -m grader mark`, or set the environment variable RUN_WITHOUT_SANDBOX=yes."
+)
+
 
 def read(folder: Path) -> str:
     """The secret of the course in `folder`, or "" without the file.
@@ -36,14 +42,22 @@ def read(folder: Path) -> str:
     return text
 
 
+def require_acceptance() -> None:
+    """Raise SystemExit unless the instructor accepts that nbgrader runs students' code without a sandbox."""
+    if os.environ.get(ACCEPTED) != "yes":
+        raise SystemExit(WITHOUT_SANDBOX)
+
+
 def set_course_secret(notebooks: Sequence[str] = (), **_: object) -> None:
     """Pass the secret of one student to the kernel that marks, as the variable COURSE_SECRET.
 
     notebooks: paths of this student's, in class/submitted/STUDENT/ASSIGNMENT/.
 
     nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
-    Raises SystemExit as `read` does: nbgrader only logs other exceptions, and would continue.
+    Raises SystemExit as `read` and `require_acceptance` do: nbgrader only logs other exceptions, and would
+    continue.
     """
+    require_acceptance()
     text = read(Path())
     if text:
         student = Path(notebooks[0]).parents[1].name if notebooks else ""

@@ -18,8 +18,6 @@ from tests.marking.student_processes import USUAL
 from tests.marking.tiny import ROOT
 from tests.patience import PATIENCE
 
-SORRY = "This could not be marked; your instructor will look at it."
-
 
 @pytest.fixture(scope="module")
 def tasks(tmp_path_factory) -> list[MarkingTask]:
@@ -105,7 +103,7 @@ def test_a_judge_that_is_killed_twice_leaves_it_to_the_instructor(pool, waiting,
             gate.read_text()
             kill_judges(pool)
         why = "The judge's process ended unexpectedly. The process was killed from outside."
-        assert result.result() == Result("ann", "02_two", "0" * 64, "refused", f"{SORRY} {why}", flags=[why])
+        assert result.result() == Result("ann", "02_two", "0" * 64, "broken", why)
 
 
 def kill_judges(pool: Pool) -> None:
@@ -135,7 +133,7 @@ def test_others_go_on_when_a_warm_process_dies(pool, waiting, gate, tasks):
         pool._judges._warm._process.kill()
         gate.read_text()
         assert len(results.result()) == len(tasks) + 1
-        assert all(SORRY not in result.reason for result in results.result())
+        assert all(result.verdict != "broken" for result in results.result())
 
 
 @pytest.fixture(scope="module")
@@ -156,7 +154,7 @@ def test_a_judge_that_gives_no_result_is_reported(pool, tasks, odd_judges, stude
     monkeypatch.setattr("grader.marking.pool.END_S", PATIENCE)
     monkeypatch.setattr(pool, "_judges", odd_judges)
     [result] = pool.mark([replace(tasks[0], student=student)])
-    assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
+    assert (result.verdict, result.reason, result.notebooks) == ("broken", why, [])
 
 
 def test_a_judge_that_says_nothing_is_given_up(pool, tasks, odd_judges, monkeypatch):
@@ -165,7 +163,7 @@ def test_a_judge_that_says_nothing_is_given_up(pool, tasks, odd_judges, monkeypa
     monkeypatch.setattr(pool, "_judges", odd_judges)
     [result] = pool.mark([replace(tasks[0], student="silent")])
     why = "It took more than 0.2 s."
-    assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
+    assert (result.verdict, result.reason, result.notebooks) == ("broken", why, [])
 
 
 def test_a_release_that_cant_be_marked_is_named(pool, tmp_path, tasks):
@@ -173,7 +171,7 @@ def test_a_release_that_cant_be_marked_is_named(pool, tmp_path, tasks):
     text = (released / "two.ipynb").read_text()
     (released / "two.ipynb").write_text(text.replace("topics.greeting.grade(Greeter)", "assert Greeter"))
     [result] = pool.mark([hand_in(tmp_path / "ann", released)])
-    assert result.reason.startswith(f"{SORRY} The test cell `greeting-points` can't be marked here: expected")
+    assert result.reason.startswith("The test cell `greeting-points` can't be marked here: expected")
 
 
 def test_a_pool_that_is_closed_leaves_no_process(waiting, tasks):

@@ -62,7 +62,10 @@ WRONG = [
     (("assignment", ""), "'' can't be the name of a folder or file"),
     (("notebooks", 0, "name", ".."), "'..' can't be the name of a folder or file"),
     (("student", 3), "3 can't be the name of a folder or file"),
-    (("verdict", "perfect"), "the verdict is one of marked, repaired, stopped, refused, not 'perfect'"),
+    (
+        ("verdict", "perfect"),
+        "the verdict is one of marked, repaired, stopped, refused, broken, not 'perfect'",
+    ),
     (("key", None), "key, reason, repairs and flags are text"),
     (("repairs", "many"), "repairs and flags are lists"),
     (("flags", [3]), "key, reason, repairs and flags are text"),

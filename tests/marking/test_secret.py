@@ -11,6 +11,7 @@ from tests.marking.tiny import ROOT
 def secret_file(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("COURSE_SECRET", raising=False)
+    monkeypatch.setenv(secret.ACCEPTED, "yes")
     file = tmp_path / ".secret"
     file.touch(mode=0o600)
     return file
@@ -39,6 +40,18 @@ def test_without_the_file_marking_uses_the_public_seeds(secret_file):
     secret_file.unlink()
     secret.set_course_secret()
     assert "COURSE_SECRET" not in os.environ
+
+
+@pytest.mark.parametrize("value", ["", "no", "1"])
+def test_without_the_instructors_word_nbgrader_does_not_run_students_code(secret_file, monkeypatch, value):
+    monkeypatch.setenv("RUN_WITHOUT_SANDBOX", value)
+    with pytest.raises(SystemExit) as stopped:
+        secret.set_course_secret()
+    assert str(stopped.value) == (
+        "Not marked: `nbgrader autograde` runs students' code without a sandbox, where it can read and "
+        "change all your files. Use `python -m grader mark`, or set the environment variable "
+        "RUN_WITHOUT_SANDBOX=yes."
+    )
 
 
 def test_a_secret_that_others_may_read_stops_the_marking(secret_file):

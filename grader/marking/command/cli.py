@@ -1,21 +1,25 @@
 """`python -m grader mark ASSIGNMENT`: the command line of marking a class."""
 import argparse
+import contextlib
+import errno
 import sys
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
+from grader.marking.command import machine
 from grader.marking.command.mark_class import OpenPool, Outcome, Settings, mark_class
 from grader.marking.command.summary import summarize
 from grader.marking.command.summary_page import as_page, page_links
-from grader.marking.command.summary_text import as_csv, as_text
+from grader.marking.command.summary_text import MANY, as_csv, as_text
 from grader.marking.cores import usable_cores
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
 from grader.marking.pool import Pool
 from grader.marking.progress_line import printable
+from grader.marking.self_check import check_marking
 from grader.marking.task import TaskPool
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
@@ -33,7 +37,8 @@ def parser() -> argparse.ArgumentParser:
     form = argparse.RawDescriptionHelpFormatter
     made = argparse.ArgumentParser("python -m grader mark", description=DESCRIPTION, formatter_class=form)
     add = made.add_argument
-    add("assignment", metavar="ASSIGNMENT")
+    add("assignment", nargs="?", default="", metavar="ASSIGNMENT")
+    add("--check", action="store_true", help="report what this machine lacks, and do nothing else")
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
     add("--jobs", type=_count, metavar="N", help="submissions at a time; default: as many as cores")
     add("--force", action="store_true", help="mark again what has already been marked")
@@ -48,10 +53,15 @@ def parser() -> argparse.ArgumentParser:
 
 def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) -> int:
     """Run the command in the course's folder; returns the exit status. open_pool: opens another pool."""
-    options = parser().parse_args(arguments)
+    form = parser()
+    options = form.parse_args(arguments)
+    if not (options.assignment or options.check):
+        form.error("the following arguments are required: ASSIGNMENT")
     try:
         course = Course(Path.cwd())
         settings = _settings(options, course)
+        if options.check:
+            return _check(course, settings, open_pool or _open_pool)
         outcome = mark_class(course, options.assignment, settings, open_pool or _open_pool)
         _report(options, course, settings, outcome)
     except (CourseError, SandboxMissing, SandboxFailed) as error:
@@ -59,10 +69,22 @@ def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) 
         print(text if text.endswith((".", "?")) else f"{text}.", file=sys.stderr)
         return 1
     except OSError as error:
-        return _stopped(f"{error.filename or 'a file'} could not be written ({error.strerror})", options)
+        advice = "free some space" if error.errno in (errno.ENOSPC, errno.EDQUOT) else "fix this"
+        why = f"{error.filename or 'a file'} could not be written ({error.strerror})"
+        return _stopped(why, options, advice)
     except DaskPoolError as error:
         return _stopped(str(error), options)
     return INTERRUPTED if outcome.interrupted else int(bool(outcome.problems))
+
+
+def _check(course: Course, settings: Settings, open_pool: OpenPool) -> int:
+    lacking = list(machine.missing(course, lambda: open_pool(settings, "")))
+    for sentence in [*lacking, *machine.weaknesses(course)]:
+        text = sentence[0].upper() + sentence[1:]
+        print(text if text.endswith(".") else f"{text}.", file=sys.stderr if lacking else sys.stdout)
+    if not lacking:
+        print("Nothing is missing: a right answer and a wrong one were marked correctly.")
+    return int(bool(lacking))
 
 
 def _settings(options: argparse.Namespace, course: Course) -> Settings:
@@ -90,12 +112,18 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     return replace(Settings(**stored), **changed)
 
 
-def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[TaskPool]:
+@contextlib.contextmanager
+def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
+    """A pool that marks correctly. Raises SandboxMissing and SandboxFailed."""
     if settings.dask:
         from grader.marking.extras.dask_cluster import DaskPool  # this import takes half a second
 
-        return DaskPool(settings.dask, settings.unsafe, secret)
-    return Pool(settings.jobs, settings.unsafe, secret)
+        opened = DaskPool(settings.dask, settings.unsafe, secret)
+    else:
+        opened = Pool(settings.jobs, settings.unsafe, secret)
+    with opened as pool:
+        check_marking(pool)
+        yield pool
 
 
 def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:
@@ -104,8 +132,12 @@ def _report(options: argparse.Namespace, course: Course, settings: Settings, out
         print(as_text(summary))
     if outcome.due:
         print(f"\n{outcome.due}")
-    if settings.csv:
-        write_atomically(Path(settings.csv), as_csv(options.assignment, outcome.results, outcome.standings))
+    file = settings.csv
+    if not file and len(outcome.results) > MANY:
+        file = str(course.table(options.assignment).relative_to(Path.cwd()))
+        print(f"\nThe points and flags of each student are in {file}.")
+    if file:
+        write_atomically(Path(file), as_csv(options.assignment, outcome.results, outcome.standings))
     if settings.html:
         links = page_links(course, options.assignment, outcome.results, Path(settings.html))
         write_atomically(Path(settings.html), as_page(summary, links))
@@ -118,8 +150,8 @@ def _report(options: argparse.Namespace, course: Course, settings: Settings, out
         print(f"Stopped. {done}: {_again(options)}.", file=sys.stderr)
 
 
-def _stopped(why: str, options: argparse.Namespace) -> int:
-    print(f"Stopped: {why}. What is marked is stored: fix this, then {_again(options)}.", file=sys.stderr)
+def _stopped(why: str, options: argparse.Namespace, advice: str = "fix this") -> int:
+    print(f"Stopped: {why}. What is marked is stored: {advice}, then {_again(options)}.", file=sys.stderr)
     return 1
 
 

@@ -10,6 +10,7 @@ from grader.marking.errors import CourseError
 from grader.marking.gradebook import due_dates
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.find_submissions import near
 from grader.marking.progress_line import printable
 
 DESCRIPTION = """Show due dates and extensions, or set one: of an assignment, or with --student an extension.
@@ -37,7 +38,8 @@ def main(arguments: list[str] | None = None) -> int:
             for line in _lines(course, book):
                 print(printable(line))
     except CourseError as error:
-        print(f"Nothing was changed: {error}.", file=sys.stderr)
+        text = f"Nothing was changed: {error}"
+        print(text if text.endswith("?") else f"{text}.", file=sys.stderr)
         return 1
     except OSError as error:
         print(f"Stopped: {error.filename} can't be written ({error.strerror}).", file=sys.stderr)
@@ -54,14 +56,25 @@ def _set(course: Course, book: Book, options: argparse.Namespace) -> None:
         book.set_due_date(name, when)
         due_dates.write_for_students(course, book.due_dates())
         return
-    _check_extension(name, due[name], when)
     extensions = due_dates.read_extensions(course)
     those = extensions.setdefault(name, {})
+    if options.student not in those:
+        _require_student(course, book, options.student)
+    _check_extension(name, due[name], when)
     those.pop(options.student, None)
     if when:
         those[options.student] = when
     due_dates.write_extensions(course, extensions)
     book.standings(name, those, [options.student])
+
+
+def _require_student(course: Course, book: Book, student: str) -> None:
+    """Raise CourseError for a student who is neither in the gradebook nor has handed anything in."""
+    submitted = [name for assignment in course.assignments() for name in course.students(assignment)]
+    known = {*(each.student for each in book.students()), *submitted}
+    if student not in known:
+        add = f"a new one is added with `nbgrader db student add {student}`"
+        raise CourseError(f"there is no student {student}: {near(student, known) or add}")
 
 
 def _check_extension(name: str, due: datetime | None, when: datetime | None) -> None:

@@ -6,7 +6,7 @@ have the id of the marking that they show; so when a run is killed, the next one
 import contextlib
 import itertools
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
@@ -14,12 +14,13 @@ from pathlib import Path
 from grader.local_time import format_local
 from grader.marking import secret
 from grader.marking.command.check_release import check_release
+from grader.marking.command.student_pages import update_pages
 from grader.marking.command.task_reader import TaskReader
+from grader.marking.command.unjudged import Unjudged
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course, time_problem, timestamp
 from grader.marking.gradebook.due_dates import read_extensions
-from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
 from grader.marking.gradebook.student_standings import Standing
@@ -94,13 +95,18 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
         run = _ClassRun(course, book, journal, outcome, release, key)
         tasks = itertools.starmap(TaskReader(release, key).read, submissions.items())  # read when requested
         try:
-            run.mark(tasks, lambda: open_pool(settings, key))
+            run.mark(tasks, lambda: open_pool(settings, key), settings.students)
             unmarked = [student for student in submissions if student not in outcome.results]
-            outcome.problems += [f"{student} was not marked: mark again" for student in unmarked]
+            why = run.unjudged.broken
+            outcome.problems += [
+                f"{student} was not marked: {why.get(student) or 'mark again'}" for student in unmarked
+            ]
             run.write_late()
             outcome.standings = run.standings(assignment)
             if settings.feedback:
-                run.give_feedback(assignment, settings.jobs)
+                outcome.problems += update_pages(
+                    course, journal, assignment, outcome.results, outcome.standings, settings.jobs
+                )
         except KeyboardInterrupt:
             outcome.interrupted = True
             with contextlib.suppress(KeyboardInterrupt):
@@ -113,6 +119,7 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
 def _notes(course: Course, assignment: str, submissions: Mapping[str, Path]) -> Iterator[tuple[str, str]]:
     for name in course.hidden_students(assignment):
         yield name, "the folder's name begins with a dot, so it is skipped: rename it"
+    yield from course.odd_folders(assignment).items()
     for student, folder in submissions.items():
         if problem := time_problem(folder):
             yield student, problem
@@ -122,7 +129,7 @@ class _ClassRun:
     """The run of a class: each submission is read once, and its result is either found or made by a pool.
 
     waiting: keys and evidence of the submissions that the pool has. late: keys of results that are in the
-    journal, but not in the gradebook. Both by student.
+    journal, but not in the gradebook. Both by student. unjudged: results that were not entered so far.
     """
 
     def __init__(
@@ -132,20 +139,37 @@ class _ClassRun:
         self.release, self.secret = release, secret
         self.waiting: dict[str, tuple[str, dict[str, str]]] = {}
         self.late: dict[str, str] = {}
+        self.unjudged = Unjudged()
 
     def mark(
-        self, tasks: Iterator[MarkingTask], open_pool: Callable[[], AbstractContextManager[TaskPool]]
+        self,
+        tasks: Iterator[MarkingTask],
+        open_pool: Callable[[], AbstractContextManager[TaskPool]],
+        chosen: Sequence[str],
     ) -> None:
-        """File the result of each task: the stored one, or that of a pool, which is opened if needed."""
+        """File the result of each task: the stored one, or that of a pool, which is opened if needed.
+
+        chosen: the students who were named, if any. Raises CourseError if nothing was judged.
+        """
         with contextlib.closing(ProgressLine(self.outcome.total)) as progress:
             unmarked = self._unmarked(tasks, progress)
             first = next(unmarked, None)
             if first is not None:
                 with open_pool() as pool:
                     for result in pool.mark(itertools.chain([first], unmarked)):
-                        self.file(self.journal.save(result, self._evidence(result)))
-                        self.outcome.fresh.append(result.student)
+                        self._require_requested(result)
+                        if result.judged:
+                            self._enter(result)
+                        else:
+                            self.unjudged.add(result)
                         progress.add_result(result)
+        for result in self.unjudged.release(self.outcome.results, chosen):
+            self._enter(result)
+
+    def _enter(self, result: Result) -> None:
+        """Store a new result, and file it."""
+        self.file(self.journal.save(result, self.waiting.pop(result.student)[1]))
+        self.outcome.fresh.append(result.student)
 
     def find_marked(self, tasks: Iterator[MarkingTask]) -> None:
         """File the stored results of tasks; the others are left."""
@@ -161,12 +185,11 @@ class _ClassRun:
             self.waiting[task.student] = task.key, evidence(task, self.secret)
             yield task
 
-    def _evidence(self, result: Result) -> dict[str, str]:
-        """The evidence of a result's task. Raises RuntimeError for a result of another task."""
-        key, found = self.waiting.pop(result.student, ("", {}))
+    def _require_requested(self, result: Result) -> None:
+        """Raise RuntimeError for a result of another task."""
+        key, _ = self.waiting.get(result.student, ("", {}))
         if (result.assignment, result.key) != (self.release.assignment, key):
             raise RuntimeError(f"the pool returned a result for {result.student} that was not requested")
-        return found
 
     def file(self, entry: JournalEntry) -> None:
         """Add a result to the outcome, and update gradebook and notebooks."""
@@ -211,19 +234,3 @@ class _ClassRun:
             return self.book.standings(assignment, extensions)
         except GradebookError:
             return {}  # it is among the problems already
-
-    def give_feedback(self, assignment: str, jobs: int) -> None:
-        """Make the pages that are missing or older than the marks."""
-        known, now = self.journal.pages(), self.outcome.standings
-        digests = {name: now[name].digest if name in now else "" for name in sorted(self.outcome.results)}
-        stale = [
-            name
-            for name, digest in digests.items()
-            if known.get(name, digest) != digest or is_stale(self.course, assignment, name)
-        ]
-        failed = make_feedback(self.course, assignment, stale, jobs) if stale else []
-        made = {name: digest for name, digest in digests.items() if name not in failed}
-        self.journal.save_pages(known | made)
-        for student in failed:
-            why = f"`nbgrader generate_feedback {assignment} --force --student {student}` shows why"
-            self.outcome.problems.append(f"the page of {student} could not be made: {why}")

@@ -1,7 +1,9 @@
 """The summary of a class for a terminal, and as CSV."""
 import csv
 import io
+import math
 import textwrap
+from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from grader.marking.command.summary import Summary, cells, missed_checks
@@ -12,6 +14,8 @@ from grader.marking.spreadsheet import inert
 
 WIDTH = 100
 MISTAKES = 8
+MANY = 100  # students: above that, what would be a line for each is in a file
+CONCERNS = 40  # that are shown then
 NAME = 40  # characters of a name in the table
 ABOUT = "student assignment verdict notebook cell exercise points max missed needs_look"
 BY_HAND = ["by_hand", "comment", "days_late", "penalty"]
@@ -24,7 +28,8 @@ def as_text(summary: Summary, mistakes: int = MISTAKES) -> str:
 
 
 def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
-    yield from _table(summary)
+    many = len(summary.rows) > MANY
+    yield from _spread(summary) if many else _table(summary)
     if summary.unstarted:
         counts = ", ".join(f"{exercise} {count}" for exercise, count in summary.unstarted.items())
         text = f"Students, of {len(summary.rows)}, who have not started: {counts}"
@@ -38,14 +43,29 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
             yield from textwrap.wrap(f"{label}: {words}", WIDTH, **indents) if words else ()
     if summary.concerns:
         yield from ("", "Needs your attention")
-    for concern in summary.concerns:
+    shown = summary.concerns[: CONCERNS if many else None]
+    for concern in shown:
         yield from textwrap.wrap(f"  {concern.whose}: {concern.what}", WIDTH, subsequent_indent="      ")
+    if len(shown) < len(summary.concerns):
+        yield f"  {len(summary.concerns) - len(shown)} more, which are in the file, too"
     if summary.times:
         times = summary.times
         yield ""
         yield f"A submission took {times.median:.1f} s (median), {times.longest:.1f} s at most."
         slowest = ", ".join(f"{name} {seconds:.2g} s" for name, seconds in times.cells)
         yield from textwrap.wrap(f"Slowest cells: {slowest}", WIDTH) if slowest else ()
+
+
+def _spread(summary: Summary) -> Iterator[str]:
+    """How many students have how many points, in place of a line for each."""
+    most = sum(summary.worth.values())
+    yield f"{len(summary.rows)} students, of {most:g} points:"
+    tenths = Counter(min(int(10 * row.total / most), 9) if most else 0 for row in summary.rows)
+    edges = [f"{most * edge / 10:g}" for edge in range(11)]
+    width = max(map(len, edges))
+    for tenth in sorted(tenths, reverse=True):
+        bar = "#" * math.ceil(40 * tenths[tenth] / len(summary.rows))
+        yield f"  {edges[tenth]:>{width}} to {edges[tenth + 1]:>{width}}  {tenths[tenth]:5}  {bar}"
 
 
 def _table(summary: Summary) -> Iterator[str]:

@@ -82,6 +82,10 @@ class Course:
         """The folder in which marking stores its results, beside nbgrader's."""
         return (self.root / self.directory.autograded_directory).parent / "marking" / assignment
 
+    def table(self, assignment: str) -> Path:
+        """The file with the points of a large class."""
+        return self.journal(assignment).with_name(f"{assignment}.csv")
+
     def receipts(self) -> Path:
         """The folder of receipts and certificates."""
         return (self.root / self.directory.autograded_directory).parent / "receipts"
@@ -95,7 +99,16 @@ class Course:
         return sorted({notebook.parent.name for notebook in self.release("*").parent.glob("*/*.ipynb")})
 
     def students(self, assignment: str) -> dict[str, Path]:
-        """The students who handed the assignment in, with folders. Raises CourseError for invalid names."""
+        """The students who handed the assignment in, with folders; without those of `odd_folders`."""
+        found = self._folders(assignment)
+        return {student: folder for student, folder in found.items() if not _name_problem(student)}
+
+    def odd_folders(self, assignment: str) -> dict[str, str]:
+        """Why folders with the assignment are left out, by their printable names."""
+        problems = {_shown(student): _name_problem(student) for student in self._folders(assignment)}
+        return {name: problem for name, problem in problems.items() if problem}
+
+    def _folders(self, assignment: str) -> dict[str, Path]:
         place = self.directory.format_path(
             self.directory.submitted_directory, "(?P<student>.*)", re.escape(assignment), escape=True
         )
@@ -103,8 +116,6 @@ class Course:
         left_out = self.directory.student_id_exclude.split(",")
         matches = {path: re.fullmatch(place, path, re.DOTALL) for path in sorted(glob.glob(pattern))}
         found = {match["student"]: Path(path) for path, match in matches.items() if match}
-        for student in found:
-            _check_name(student, found[student])
         return {student: folder for student, folder in found.items() if student not in left_out}
 
     def hidden_students(self, assignment: str) -> list[str]:
@@ -117,22 +128,20 @@ class Course:
         return Path(os.path.normpath(self.directory.format_path(step, student, assignment)))
 
 
-def _check_name(student: str, folder: Path) -> None:
-    """Raise CourseError for a name that can't be the name of a file or a text in the gradebook."""
-    length = len(os.fsencode(student))
+def _name_problem(student: str) -> str:
+    """Why a name can't be the name of a file or a text in the gradebook; "" if it can."""
+    length, odd = len(os.fsencode(student)), sorted(FORBIDDEN & set(student))
+    saw = "more than one line" if len(student.splitlines()) > 1 or "\n" in student else ""
+    saw = saw or (f"{' and '.join(odd)}" if odd else "")
+    saw = saw or ("bytes that aren't UTF-8" if student != student.encode(errors="replace").decode() else "")
+    saw = saw or (f"{length} bytes, of at most {MAX_NAME_BYTES}" if length > MAX_NAME_BYTES else "")
+    return f"the folder's name has {saw}, so it is left out: rename it" if saw else ""
+
+
+def _shown(student: str) -> str:
+    """The name in quotes, shortened, with escapes for what can't be printed."""
     plain = student.encode(errors="replace").decode()
-    odd = sorted(FORBIDDEN & set(student))
-    if plain == student and length <= MAX_NAME_BYTES and "\n" not in student and not odd:
-        return
-    saw = f"{length} bytes" if plain == student else "bytes that aren't UTF-8"
-    saw = f"with {' and '.join(odd)}" if odd else saw
-    saw = "two lines" if "\n" in student else saw
-    shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
-    expected = f"expected one line of at most {MAX_NAME_BYTES} bytes" + (" without < > \" &" if odd else "")
-    raise CourseError(
-        f"a student's folder has the name {shown!r}, {saw}; {expected}: "
-        f"rename it in {str(folder.parent.parent).encode(errors='replace').decode()}"
-    )
+    return repr(plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}...")
 
 
 def timestamp(folder: Path) -> tuple[datetime | None, str]:

@@ -5,6 +5,7 @@ This is the trusted side: simulator, companions, worlds from the secret and all 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from time import monotonic
 
 from nbformat import NotebookNode
@@ -88,7 +89,7 @@ def mark_submission(task: MarkingTask, secret: str, start_session: StartSession)
         return Result(task.student, task.assignment, task.key, "refused", str(reason))
     marking.timings["total"] = monotonic() - began
     repaired = "repaired" if marking.rebuilt.repairs else "marked"
-    return Result(
+    result = Result(
         task.student,
         task.assignment,
         task.key,
@@ -99,6 +100,8 @@ def mark_submission(task: MarkingTask, secret: str, start_session: StartSession)
         [NotebookResult(name, marking.notebook(name), cells) for name, cells in marking.cells.items()],
         marking.timings,
     )
+    broken = bool(marking.errors) and not result.judged
+    return replace(result, verdict="broken", reason=marking.errors[0]) if broken else result
 
 
 def result_text(result: Result) -> str:

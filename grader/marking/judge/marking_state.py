@@ -23,7 +23,7 @@ class MarkingState:
 
     secret: this student's worlds and seeds are derived from it; "" for the public ones. exercises: those of
     the test cells, by notebook and grade_id. cells: the results of test cells, by notebook. stops: why a
-    notebook did not run to its end. timings: see Result.
+    notebook did not run to its end. errors: those of the course. timings: see Result.
     """
 
     task: MarkingTask
@@ -34,6 +34,7 @@ class MarkingState:
     cells: dict[str, list[CellResult]] = field(default_factory=dict)
     displays: DisplayRegistry = field(default_factory=DisplayRegistry)
     flags: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
     stops: list[str] = field(default_factory=list)
     timings: dict[str, float] = field(default_factory=lambda: {"judged": 0.0})
 

@@ -179,6 +179,7 @@ class NotebookRun:
         """The result after an error of the course: the instructor has to look."""
         last = traceback.format_exception_only(error)[-1].strip()
         self._flag(cell, [f"could not be graded, because of a bug in the course: {last}"])
+        self._marking.errors.append(writable_text(f"a bug in the course: {last}"))
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
         words = (
             "This cell could not be graded, because of a bug in the course. Your instructor will look at it."

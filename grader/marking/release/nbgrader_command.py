@@ -1,4 +1,5 @@
 """Runs nbgrader's own commands in a course folder."""
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -8,10 +9,14 @@ from grader.marking.errors import CommandFailed
 ERROR_LINES = 12
 
 
-def nbgrader(course: Path, *arguments: str) -> None:
-    """Run `nbgrader ARGUMENTS` in the folder `course`, beside its configuration. Raises CommandFailed."""
+def nbgrader(course: Path, *arguments: str, **variables: str) -> None:
+    """Run `nbgrader ARGUMENTS` in the folder `course`, beside its configuration. Raises CommandFailed.
+
+    variables: more of the environment.
+    """
     command = [sys.executable, "-m", "nbgrader", *arguments]
-    done = subprocess.run(command, cwd=course, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = subprocess.run(command, cwd=course, text=True, env={**os.environ, **variables}, **output)
     if done.returncode:
         raise failure(course, " ".join(arguments), done.stdout)
 

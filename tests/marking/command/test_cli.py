@@ -1,3 +1,4 @@
+import errno
 import json
 import os
 import resource
@@ -6,11 +7,14 @@ import sys
 from dataclasses import replace
 
 import pytest
+from nbconvert.writers import FilesWriter
 
 from grader.__main__ import main as command_line
+from grader.marking.command import cli, student_pages, summary_text
 from grader.marking.command.cli import main
 from grader.marking.command.mark_class import Settings
 from grader.marking.errors import SandboxMissing
+from grader.marking.gradebook import feedback
 from tests.marking.classroom import ASSIGNMENT, gradebook, result
 from tests.marking.fake_pool import ReadyPool
 from tests.marking.tiny import ROOT
@@ -131,7 +135,7 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
-        "usage: python -m grader mark ASSIGNMENT [--help]\n"
+        "usage: python -m grader mark ASSIGNMENT | --check [--help]\n"
         "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
         "       python -m grader hub [--check] [--help]\n"
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
@@ -175,3 +179,57 @@ def test_a_full_disk_loses_nothing_that_is_marked(course, command, pool, capsys)
     pool.again()
     assert command("--no-feedback") == 0
     assert pool.again() == ["bob", "eve"]
+
+
+def test_a_full_disk_while_pages_are_made_is_one_sentence(course, command, monkeypatch, capsys):
+    def full(self, *_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(FilesWriter, "write", full)
+    assert command() == 1
+    page = "class/feedback/anna/01_class"
+    *_, last, stopped = capsys.readouterr().err.splitlines()
+    assert last.startswith("3 of 3  eve: ")
+    assert stopped == (
+        f"Stopped: {course.root / page} could not be written (No space left on device). "
+        f"What is marked is stored: free some space, then {AGAIN}."
+    )
+    assert len(gradebook(course)) == 3
+
+
+def test_another_error_of_a_page_is_still_that_pages(course, command, monkeypatch, capsys):
+    def forbidden(self, *_, **__):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(FilesWriter, "write", forbidden)
+    assert command() == 1
+    assert capsys.readouterr().err.count("could not be made: `nbgrader generate_feedback") == 3
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_the_progress_of_many_pages_is_shown(course, command, monkeypatch, capsys, jobs):
+    for module in (feedback, student_pages):
+        monkeypatch.setattr(module, "SHARE", 2)
+    assert command("--jobs", jobs) == 0
+    assert capsys.readouterr().err.endswith("2 of 3  students' pages\n3 of 3  students' pages\n")
+
+
+def test_a_large_class_has_a_summary_and_a_file_in_place_of_the_table(course, command, monkeypatch, capsys):
+    for module in (summary_text, cli):
+        monkeypatch.setattr(module, "MANY", 2)
+    assert command("--no-feedback") == 0
+    output = capsys.readouterr().out
+    assert output.startswith("3 students, of 15 points:\n")
+    assert "\nThe points and flags of each student are in class/marking/01_class.csv.\n" in output
+    assert (course.root / "class/marking/01_class.csv").read_text().count("\nanna,") == 2
+    assert command("--no-feedback", "--csv", "mine.csv") == 0
+    assert "class/marking" not in capsys.readouterr().out
+
+
+def test_a_folder_whose_name_can_t_be_used_is_left_out_and_named(course, command, capsys):
+    course.submitted("ann\nbob", ASSIGNMENT).mkdir(parents=True)
+    assert command("--no-feedback") == 0
+    output = capsys.readouterr().out
+    assert "3 marked now, 3 of 3 in all" in output
+    reported = "'ann\\nbob': the folder's name has more than one line, so it is left out: rename it"
+    assert reported in " ".join(output.split())

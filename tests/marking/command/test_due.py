@@ -3,6 +3,7 @@ import json
 import time
 
 import pytest
+from nbgrader.api import Gradebook
 
 from grader.marking.command.mark_class import Settings, mark_class
 from grader.marking.gradebook.book import Book
@@ -77,6 +78,22 @@ def test_a_deadline_with_an_extension_costs_what_the_page_says(course, say):  # 
 )
 def test_what_can_t_be_set_is_named(course, say, words, sentence):  # noqa: F811
     assert say("due", *words) == (1, "", f"Nothing was changed: {sentence}.\n")
+
+
+def test_an_extension_for_a_student_who_is_not_known_is_refused(course, say):  # noqa: F811
+    say("due", ASSIGNMENT, "2026-12-01 18:00")
+    why = "there is no student ana: did you mean anna?"
+    answer = say("due", ASSIGNMENT, "2026-12-02 18:00", "--student", "ana")
+    assert answer == (1, "", f"Nothing was changed: {why}\n")
+    why = "there is no student nora: a new one is added with `nbgrader db student add nora`"
+    answer = say("due", ASSIGNMENT, "2026-12-02 18:00", "--student", "nora")
+    assert answer == (1, "", f"Nothing was changed: {why}.\n")
+    with Gradebook(course.database) as book:
+        book.add_student("nora")
+    assert say("due", ASSIGNMENT, "2026-12-02 18:00", "--student", "nora")[0] == 0
+    with Gradebook(course.database) as book:
+        book.remove_student("nora")
+    assert "nora" not in say("due", ASSIGNMENT, "none", "--student", "nora")[1]
 
 
 def test_an_extension_is_no_earlier_date(course, say):  # noqa: F811

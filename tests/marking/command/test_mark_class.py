@@ -6,6 +6,7 @@ from nbgrader.api import Gradebook
 
 from grader.marking.command import task_reader
 from grader.marking.command.mark_class import Settings, mark_class
+from grader.marking.errors import CourseError
 from grader.marking.submission.submitted_files import read_folder
 from tests.marking.classroom import ASSIGNMENT, gradebook, result, submit
 from tests.marking.fake_pool import ReadyPool
@@ -236,3 +237,79 @@ def test_a_page_that_fails_is_named_and_the_others_are_made(course, pool):
     assert (course.feedback("eve", ASSIGNMENT) / "nodes.html").exists()
     pool.change = result
     assert run(course, pool, replace(Settings(), students=["bob"], force=True)).problems == []
+
+
+def unjudged(course, task, **changes):
+    """A result whose test cells ended before their nodes were run."""
+    found = result(course, task, **changes)
+    cells = [replace(cell, points=0.0, verdicts=[]) for cell in found.notebooks[0].cells]
+    return replace(found, notebooks=[replace(found.notebooks[0], cells=cells)])
+
+
+def entered(course):
+    """What a run leaves: students in gradebook, journal, autograded/ and feedback/."""
+    folders = [course.journal(ASSIGNMENT), course.autograded("x", ASSIGNMENT).parents[1]]
+    folders += [course.feedback("x", ASSIGNMENT).parents[1]]
+    return sorted({*gradebook(course), *(path.stem for folder in folders for path in folder.glob("[!.]*"))})
+
+
+def nothing_judged(course, pool, settings=MARKED):
+    with pytest.raises(CourseError) as caught:
+        run(course, pool, settings)
+    assert entered(course) == []
+    return str(caught.value)
+
+
+NO_MODULE = "ModuleNotFoundError: No module named 'launch_process_starters'"
+
+
+def test_a_class_in_which_nothing_could_be_judged_is_an_error_and_changes_nothing(course, pool):
+    flag = f"The test cell `test_counter`: not graded, and worth a look. {NO_MODULE}."
+    pool.change = lambda course, task: unjudged(course, task, flags=[flag])
+    assert nothing_judged(course, pool, Settings()) == (
+        "none of the 3 submissions could be judged, so nothing was entered and no page made "
+        f"(anna: {flag[:-1]}); if it is the student's own fault, add `--student anna`"
+    )
+
+
+def test_an_error_in_the_cells_is_the_reason_if_there_is_no_other(course, pool):
+    def failing(course, task):
+        found = unjudged(course, task)
+        error = {"output_type": "error", "ename": "ImportError", "evalue": "no grader", "traceback": []}
+        found.notebooks[0].notebook["cells"][1]["outputs"] = [error]
+        return found
+
+    pool.change = failing
+    assert "(anna: ImportError: no grader)" in nothing_judged(course, pool)
+
+
+def test_a_submission_that_the_course_could_not_judge_is_never_entered(course, pool):
+    def broken_for_bob(course, task):
+        changes = {"verdict": "broken", "reason": "a bug in the course: KeyError: 'x'"}
+        return unjudged(course, task, **changes) if task.student == "bob" else result(course, task)
+
+    pool.change = broken_for_bob
+    outcome = run(course, pool, Settings())
+    assert outcome.problems == ["bob was not marked: a bug in the course: KeyError: 'x'"]
+    assert (outcome.fresh, entered(course)) == (["anna", "eve"], ["anna", "eve"])
+    pool.again()
+    pool.change = result
+    assert run(course, pool, Settings()).problems == []
+    assert (pool.again(), entered(course)) == (["bob"], ALL)
+
+
+def test_if_the_course_failed_for_all_even_those_who_were_named_are_not_marked(course, pool):
+    pool.change = lambda course, task: unjudged(course, task, verdict="broken", reason="It broke.")
+    assert nothing_judged(course, pool, replace(MARKED, students=["eve"])) == (
+        "the submission could not be judged, so nothing was entered and no page made (eve: It broke)"
+    )
+
+
+def test_students_own_faults_are_marked_once_another_was_judged_or_they_are_named(course, pool):
+    pool.change = lambda course, task: (result if task.student == "eve" else unjudged)(course, task)
+    assert run(course, pool).fresh == ["eve", "anna", "bob"]
+    submit(course, "bob", line="Line = 3")
+    pool.change = unjudged
+    assert run(course, pool).fresh == ["bob"]  # eve's stored result was judged
+    assert run(course, pool, replace(MARKED, force=True, students=["anna"])).fresh == ["anna"]
+    assert gradebook(course)["anna"]["score"] == 0

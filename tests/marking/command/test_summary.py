@@ -259,3 +259,17 @@ def test_points_by_hand_comments_and_penalties_are_in_table_csv_and_page(results
     ]
     page = as_page(summary)
     assert "<th>late</th>" in page and "<td>2.0 d: -1.5</td>" in page
+
+
+def test_a_large_class_is_summed_up_by_tenths_of_the_points():
+    many = {f"s{index:03}": student(f"s{index:03}", counted(1), lined(index % 4 / 4)) for index in range(120)}
+    flagged = {name: replace(result, flags=["Odd."]) for name, result in many.items()}
+    lines = as_text(summarize("01_class", WORTH, flagged)).splitlines()
+    assert lines[:4] == [
+        "120 students, of 15 points:",
+        "   7.5 to    9     30  ##########",
+        "     6 to  7.5     30  ##########",
+        "   4.5 to    6     30  ##########",
+    ]
+    assert lines.count("  s000: Odd.") == 1
+    assert "  81 more, which are in the file, too" in lines

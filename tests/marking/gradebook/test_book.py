@@ -16,6 +16,7 @@ from grader.marking.journal import JournalEntry
 from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
 from grader.marking.result import CellResult
+from grader.marking.secret import ACCEPTED
 from tests.marking.classroom import ASSIGNMENT, classroom, gradebook, result, submit, tasks
 
 LATE = """
@@ -109,9 +110,9 @@ def test_it_writes_what_nbgrader_autograde_writes(tmp_path, monkeypatch):
     submit(course, "anna", time="2026-01-06 10:00:00 UTC")
     submit(course, "bob", line="# YOUR CODE HERE\nraise NotImplementedError()")
     shutil.copytree(course.root, tmp_path / "other")
-    nbgrader(course.root, "autograde", ASSIGNMENT)
+    nbgrader(course.root, "autograde", ASSIGNMENT, **{ACCEPTED: "yes"})
     by_hand(course, "anna")
-    nbgrader(course.root, "autograde", ASSIGNMENT, "--force", "--student", "anna")
+    nbgrader(course.root, "autograde", ASSIGNMENT, "--force", "--student", "anna", **{ACCEPTED: "yes"})
 
     monkeypatch.chdir(tmp_path / "other")
     own = Course(tmp_path / "other")

@@ -273,6 +273,8 @@ def test_a_judge_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch)
     result = marked()
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
     assert all(cell.needs_look for cell in result.notebooks[0].cells)
+    assert result.verdict == "broken"
+    assert result.reason == "a bug in the course: IndexError: list index out of range"
     assert result.flags[0] == (
         "The test cell `greeting-points`: could not be graded, because of a bug in the course: "
         "IndexError: list index out of range."
@@ -399,7 +401,8 @@ def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked,
     assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
     message = "could not be graded, because of a bug in the course: RuntimeError: an end that is gone."
     assert result.flags == [f"The test cell `{name}`: {message}" for name in points(result)]
-    assert result.verdict == "marked"
+    assert result.verdict == "broken"
+    assert result.reason == "a bug in the course: RuntimeError: an end that is gone"
     assert text(result, "greeting-points") == (
         "This cell could not be graded, because of a bug in the course. Your instructor will look at it.\n"
     )

@@ -12,6 +12,7 @@ from grader.marking.release.demo import SampleMark, main, mark_samples, table
 from grader.marking.release.make_exercises import copy_of_course
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES
+from grader.marking.secret import ACCEPTED, WITHOUT_SANDBOX
 from tests.marking.tiny import ROOT, course, grade, tiny
 
 STEPS: list[str] = []
@@ -102,8 +103,18 @@ def test_the_command_stops_on_a_secret_that_others_may_read(marked_course):
     folder, _ = marked_course
     (folder / ".secret").chmod(0o640)
     with pytest.raises(CommandFailed, match=r"run `chmod 600 \.secret`, then mark again\.$"):
-        nbgrader(folder, "autograde", "01_tiny", "--force")
+        nbgrader(folder, "autograde", "01_tiny", "--force", **{ACCEPTED: "yes"})
     (folder / ".secret").chmod(0o600)
+
+
+def test_plain_autograde_refuses_before_it_removes_anything_and_names_the_way(marked_course):
+    folder, _ = marked_course
+    page = folder / "class" / "autograded" / "right" / "01_tiny" / "tiny.ipynb"
+    before = page.read_bytes()
+    with pytest.raises(CommandFailed) as failed:
+        nbgrader(folder, "autograde", "01_tiny", "--force")
+    assert str(failed.value).splitlines()[1:] == [f"    {WITHOUT_SANDBOX}"]
+    assert page.read_bytes() == before
 
 
 @pytest.mark.parametrize(("student", "failing"), [("right", 0), ("half_right", 1), ("wrong", 3)])

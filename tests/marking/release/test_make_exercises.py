@@ -9,6 +9,7 @@ from nbgrader.api import Gradebook
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences, main, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
+from grader.marking.secret import ACCEPTED
 from grader.notebook_format import normalize
 from tests.marking.tiny import ROOT, grade
 
@@ -86,7 +87,7 @@ def test_an_assignment_without_a_source_goes(tiny_course):
 
 def test_a_failed_command_says_which_and_what_it_printed(tiny_course):
     with pytest.raises(CommandFailed) as failed:
-        nbgrader(tiny_course, "autograde", "09_unknown")
+        nbgrader(tiny_course, "autograde", "09_unknown", **{ACCEPTED: "yes"})
     first, *last = str(failed.value).splitlines()
     assert first == f"`nbgrader autograde 09_unknown` failed in {tiny_course}:"
     assert "No notebooks were matched" in last[-1]

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 from grader.marking.errors import DaskPoolError, ResultError
 from grader.marking.extras.dask_cluster.on_worker import MARKED, UNFIT, RunSettings, mark_task
 from grader.marking.extras.dask_cluster.workers import Workers
-from grader.marking.pool import refused_result
+from grader.marking.pool import broken_result
 from grader.marking.result import Result
 from grader.marking.sandbox import ResourceLimits
 from grader.marking.task import MarkingTask, TimeLimits
@@ -174,7 +174,7 @@ class DaskPool:
             job.fail(LOST)
         except Exception as error:
             job.fail(f"{type(error).__name__}: {error}")
-        return refused_result(job.task, job.why) if job.failed >= TRIES else None
+        return broken_result(job.task, job.why) if job.failed >= TRIES else None
 
     def _check(self) -> None:
         """Raise DaskPoolError if scheduler or workers have been missing for too long."""

@@ -25,7 +25,6 @@ from tests.patience import PATIENCE, until
 
 HOW = {"unsafe": True, "secret": "a secret", "time_limits": USUAL}
 REMOTE = {**HOW, "wait_s": PATIENCE}
-SORRY = "This could not be marked; your instructor will look at it."
 LOST = "The worker that marked this was lost."
 
 
@@ -94,8 +93,8 @@ def test_a_submission_that_ends_every_worker_is_left_to_the_instructor(
             gate.read_text()
             shared.kill(at_work_on(pool, "ann"))
         found = results.result()
-    refused = Result("ann", "02_two", "0" * 64, "refused", f"{SORRY} {LOST}", flags=[LOST])
-    assert found == {"ann": refused.grade_json(), "right": here["right"]}
+    broken = Result("ann", "02_two", "0" * 64, "broken", LOST)
+    assert found == {"ann": broken.grade_json(), "right": here["right"]}
 
 
 def test_who_closes_it_ends_what_is_marked(shared, staying, gate):
@@ -188,7 +187,7 @@ def test_an_answer_that_is_no_result_is_reported(shared, tasks, monkeypatch, ans
     monkeypatch.setattr("grader.marking.extras.dask_cluster.dask_pool.mark_task", answer)
     with DaskPool(shared.address, **REMOTE) as pool:
         [result] = pool.mark(tasks[:1])
-    assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
+    assert (result.verdict, result.reason) == ("broken", why)
 
 
 def test_what_fails_at_one_worker_is_given_to_another(shared, tasks, monkeypatch, tmp_path):

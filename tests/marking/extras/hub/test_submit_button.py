@@ -1,0 +1,36 @@
+"""What a student reads who submits too early, from nbgrader's own list of assignments."""
+import pytest
+from nbgrader.server_extensions.assignment_list.handlers import AssignmentList
+from traitlets.config import Config
+
+from grader.marking.extras.hub.submit_button import _load_jupyter_server_extension, _submit
+
+
+@pytest.fixture
+def assignments(tmp_path, monkeypatch):
+    """The list of a student whose exchange has no release."""
+    for folder in ("exchange/ros2/outbound", "exchange/ros2/inbound", "home/01_nodes"):
+        (tmp_path / folder).mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "home")
+    config = Config()
+    config.Exchange.root = str(tmp_path / "exchange")
+    monkeypatch.setattr(AssignmentList, "submit_assignment", _submit)
+    monkeypatch.setattr(AssignmentList, "load_config", lambda self: config)
+    _load_jupyter_server_extension(None)
+    found = AssignmentList(config=config)
+    found.root_dir = str(tmp_path / "home")
+    return found
+
+
+def test_a_submission_before_the_release_is_one_sentence(assignments):
+    answer = assignments.submit_assignment("ros2", "01_nodes")
+    assert answer == {
+        "success": False,
+        "value": "01_nodes is not released yet: submit it when your teacher has released it. Your work is kept.",
+    }
+
+
+def test_of_another_error_the_last_line_is_left(assignments, tmp_path):
+    (tmp_path / "exchange/ros2/outbound/02_topics").mkdir()
+    answer = assignments.submit_assignment("ros2", "02_topics")
+    assert answer == {"success": False, "value": f"Assignment not found at: {tmp_path}/home/02_topics"}
