@@ -30,6 +30,12 @@ def package_of(run: PackageRun) -> Package:
     return run.package
 
 
+def starts_a_node(run: PackageRun) -> None:
+    """A program of the package runs a node, unless an error explains why none does. Raises Missed."""
+    if not run.errors and run.course_nodes.issuperset(run.graph.nodes):
+        raise Missed("a program that runs a node", "no node", "What files say counts once a program runs.")
+
+
 def names_what_it_imports(run: PackageRun) -> None:
     """Every package that modules and launch files import is in package.xml. Raises Missed.
 

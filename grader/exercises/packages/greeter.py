@@ -3,7 +3,7 @@
 from functools import partial
 
 from grader.checks import Missed, publishes, rate
-from grader.checks.packages import installs_by_itself, names_what_it_imports
+from grader.checks.packages import installs_by_itself, names_what_it_imports, starts_a_node
 from grader.exercise import Exercise, Scenario
 from grader.workspace.installation import ros2_run
 from grader.workspace.near_misses import entry_points
@@ -40,10 +40,12 @@ def counts(run: PackageRun) -> None:
 @greeter.check(3)
 def names_its_needs(run: PackageRun) -> None:
     """package.xml names every ROS package that the program imports."""
+    starts_a_node(run)
     names_what_it_imports(run)
 
 
 @greeter.check(3)
 def brings_its_description(run: PackageRun) -> None:
     """setup.py installs package.xml, and the marker that lets ROS find the package."""
+    starts_a_node(run)
     installs_by_itself(run)

@@ -3,7 +3,7 @@
 from functools import partial
 
 from grader.checks import Missed, publishes, rate
-from grader.checks.packages import package_of
+from grader.checks.packages import package_of, starts_a_node
 from grader.companions.package_sensors import TEMPERATURE, WeatherStation
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli
@@ -45,6 +45,7 @@ def shows(run: PackageRun) -> None:
 @station.check(5)
 def has_these_commands(run: PackageRun) -> None:
     """The package has these two commands and no others."""
+    starts_a_node(run)
     programs = package_of(run).built.programs
     found = sorted(path.rpartition("/")[2] for path in programs if path.startswith("lib/station/"))
     others = [name for name in found if name not in COMMANDS]

@@ -13,12 +13,13 @@ from grader.checks.packages import (
     names_what_it_imports,
     package_of,
     parsed,
+    starts_a_node,
 )
 from grader.workspace.building import CUT, Built
 from grader.workspace.package import Package, PackageRun
 from grader.workspace.package_xml import PackageXml
 from sim import Recording
-from sim.evidence import Endpoint, Graph
+from sim.evidence import CallbackError, Endpoint, Graph
 
 MODULES = "lib/python3.12/site-packages"
 
@@ -143,6 +144,18 @@ def test_an_output_of_which_a_part_is_left_out_is_too_long(check):
     miss = missed(check, packaged(output=f"no matter{CUT}Finished <<< patrol\n"))
     assert (miss.expected, miss.saw) == ("the output of a build, which is short", "more than 50 kB")
     assert miss.hint == "Print nothing in setup.py."
+
+
+def test_a_program_that_runs_no_node_and_has_no_error_does_nothing():
+    run = packaged()
+    miss = missed(starts_a_node, run)
+    assert (miss.expected, miss.saw) == ("a program that runs a node", "no node")
+    assert miss.hint == "What files say counts once a program runs."
+    run.errors = [CallbackError(0.0, "", "main", "ValueError", "", "")]
+    starts_a_node(run)
+    run.errors, run.graph = [], Graph(["/probe", "/hello"])
+    run.course_nodes = {"/probe"}
+    starts_a_node(run)
 
 
 def test_what_is_imported_by_a_function_is_what_the_nodes_use():

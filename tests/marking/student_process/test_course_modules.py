@@ -75,7 +75,8 @@ THERE = {
     "checks.mistakes": ("usual_mistake", "compares with wrong formulas"),
     "checks.motion": ("distances_to_line", "how far a path was from a line"),
     "checks.navigation": ("to_go", "needs a World"),
-    "checks.packages": ("_requires_short_output build_warnings hiding imports names_used parsed",
+    "checks.packages": ("_requires_short_output build_warnings hiding imports names_used parsed "
+                        "starts_a_node",
                         "reads what a student wrote"),
     "checks.services": ("wrong_response", "words of a miss"),
     "checks.shift": ("Shift _statuses _touched", "counts what was delivered"),

@@ -110,3 +110,6 @@ PrintsALot = Workspace(
         "import sys\nfrom glob import glob\n\nsys.stderr.write('no matter\\n' * 30000)",
     ),
 )
+EmptyMain = Workspace(
+    __name__, changed(RIGHT, WHOLE[3], "    rclpy.init()\n    rclpy.spin(Hello())\n", "    pass\n")
+)
