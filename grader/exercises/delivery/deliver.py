@@ -8,6 +8,7 @@ from grader.checks.check import Hints
 from grader.checks.motion import after_a_touch, stood_still
 from grader.checks.shift import Job
 from grader.companions.robot_programs import SHIFT
+from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, top_speed
 from grader.worlds.warehouses import FAIR, warehouse
@@ -129,6 +130,9 @@ def stands_blind(run: Recording) -> None:
                     "Compare header.stamp.")
             saw = f"{top.linear:.2f} m/s at {top.stamp:.3g} s"
             raise Missed(expected, saw, hint, picture="topics", unsafe=True)
+        if silence := still_obeyed(run, min(end, run.stamp) - SETTLING):
+            saw = "no zeros: other robots would drive on"
+            raise Missed("zeros while no scans arrive", saw, silence, picture="topics", unsafe=True)
     if not drove and not _delivers(run):  # a robot that delivers may stand for people
         raise Missed("a robot that drives when the lidar falls silent", "it was already standing still")
 

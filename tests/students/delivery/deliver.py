@@ -16,7 +16,7 @@ from tests.students.teams import Team
 
 PARTS = (
     *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
-    *("Unsocial", "Close", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight"),
+    *("Unsocial", "Close", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight", "Quiet"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -240,5 +240,17 @@ class Tight(Control):
 ScrapesShelves = Team(Perception, Decision, Tight)
 
 
+class Quiet(Control):
+    """Publishes nothing while its news is old."""
+
+    def on_pose(self, message):
+        if Time.from_msg(message.header.stamp).nanoseconds - self.received < 0.5e9:
+            super().on_pose(message)
+
+    def stand(self):
+        pass
+
+
+SilentWhileBlind = Team(Perception, Decision, Quiet)
 OnlyControl = Team(Control)
 OnlyPerception = Team(Perception)
