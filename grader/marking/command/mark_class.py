@@ -19,11 +19,12 @@ from grader.marking.command.task_reader import TaskReader
 from grader.marking.command.unjudged import Unjudged
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
-from grader.marking.gradebook.course import Course, time_problem, timestamp
+from grader.marking.gradebook.course import Course, timestamp
 from grader.marking.gradebook.due_dates import read_extensions
 from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
 from grader.marking.gradebook.student_standings import Standing
+from grader.marking.gradebook.time_notes import time_notes
 from grader.marking.journal import Journal, JournalEntry
 from grader.marking.mark_evidence import evidence
 from grader.marking.progress_line import ProgressLine
@@ -111,18 +112,18 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
             outcome.interrupted = True
             with contextlib.suppress(KeyboardInterrupt):
                 run.find_marked(tasks)  # the summary is of all results
-        outcome.notes += _notes(course, assignment, submissions)
+        outcome.notes += _notes(course, assignment, submissions, bool(outcome.due))
     outcome.seconds = time.monotonic() - begin
     return outcome
 
 
-def _notes(course: Course, assignment: str, submissions: Mapping[str, Path]) -> Iterator[tuple[str, str]]:
+def _notes(
+    course: Course, assignment: str, submissions: Mapping[str, Path], due: bool
+) -> Iterator[tuple[str, str]]:
     for name in course.hidden_students(assignment):
         yield name, "the folder's name begins with a dot, so it is skipped: rename it"
     yield from course.odd_folders(assignment).items()
-    for student, folder in submissions.items():
-        if problem := time_problem(folder):
-            yield student, problem
+    yield from time_notes(course, assignment, submissions, due)
 
 
 class _ClassRun:

@@ -96,7 +96,7 @@ class Book:
                 submission = book.find_submission(assignment, student)
             except MissingEntry:
                 return False
-            return timestamp is None or submission.timestamp == timestamp
+            return submission.timestamp == timestamp
 
     def marks(self) -> list[GradebookMark]:
         """All marks of the class, by assignment and student."""
@@ -139,14 +139,13 @@ class Book:
     def write(self, result: Result, pages: Mapping[str, NotebookNode], timestamp: datetime | None) -> None:
         """Write a result: all of it, or nothing if this raises.
 
-        pages: the notebooks as they were marked, with nbgrader's metadata, by name. timestamp: UTC. Points
-        entered by hand stay, and are marked for another look, as after `nbgrader autograde`.
+        pages: the notebooks as they were marked, with nbgrader's metadata, by name. timestamp: UTC, None if
+        it isn't known. Points entered by hand stay, and are marked for another look, as after nbgrader's own.
         """
         with self._transaction() as book:
             _name(book.update_or_create_student(result.student))
-            when = {} if timestamp is None else {"timestamp": timestamp}
             with book.db.no_autoflush:  # the submission must not be in the session before it is complete
-                book.update_or_create_submission(result.assignment, result.student, **when)
+                book.update_or_create_submission(result.assignment, result.student, timestamp=timestamp)
             book.db.expire_all()  # so that the rows of nbgrader's methods are read again
             submission = book.find_submission(result.assignment, result.student)
             for notebook in submission.notebooks:

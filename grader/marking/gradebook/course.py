@@ -153,6 +153,11 @@ def timestamp(folder: Path) -> tuple[datetime | None, str]:
     return (None, "") if not text.strip() or time_problem(folder) else (_parse_time(text), text)
 
 
+def write_timestamp(folder: Path, when: datetime) -> None:
+    """Write when a submission was handed in (UTC), as nbgrader's exchange does. Raises OSError."""
+    (folder / TIMESTAMP).write_text(f"{when:%Y-%m-%d %H:%M:%S} UTC\n")
+
+
 def time_problem(folder: Path) -> str:
     """Why the time in a submission's timestamp.txt can't be used, without a full stop; or ""."""
     text = small_text(folder, TIMESTAMP).strip()

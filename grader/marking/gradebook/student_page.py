@@ -3,6 +3,7 @@
 nbgrader uses this exporter (`GenerateFeedback.exporter_class`). The page needs no external resources.
 """
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from grader.marking.outputs import FOR_INSTRUCTOR
 
 HEADING = re.compile(r"^#{1,6}\s+(.+?)\s*$", re.MULTILINE)
 WORTH = re.compile(r"\s*\(\d+(\.\d+)? points?\)$")
+UNITS = (DAY, "days"), (3600.0, "hours"), (60.0, "minutes")
 MARKS = str.maketrans("", "", "`*")
 
 
@@ -89,7 +91,13 @@ def _late(about: dict[str, Any]) -> str:
             seconds, due = found.total_seconds_late, found.duedate
     except MissingEntry:
         return ""
-    return f"handed in {seconds / DAY:.1f} days after {format_local(due)}" if seconds else ""
+    return f"handed in {_duration(seconds)} after {format_local(due)}" if seconds else ""
+
+
+def _duration(seconds: float) -> str:
+    """In days; in hours or minutes if it is less than a day or an hour."""
+    unit, name = next((each for each in UNITS if seconds >= each[0]), UNITS[-1])
+    return f"{math.ceil(seconds / unit * 10) / 10:g} {name}"
 
 
 def _for_instructor(output: NotebookNode) -> bool:

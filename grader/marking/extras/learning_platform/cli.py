@@ -5,15 +5,17 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from grader.local_time import local_zone
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
 from grader.marking.extras.learning_platform.collect import assignment_of
 from grader.marking.extras.learning_platform.collect import collect as collect_archive
-from grader.marking.extras.learning_platform.collected import known_students
 from grader.marking.extras.learning_platform.csv_file import CsvFile
 from grader.marking.extras.learning_platform.feedback_zip import write_feedback_zip
 from grader.marking.extras.learning_platform.fill_grades import FillReport, fill_grades, marks_of
 from grader.marking.extras.learning_platform.grade_sheet import GradeSheet, read_canvas, read_moodle
+from grader.marking.extras.learning_platform.known_students import known_students
+from grader.marking.extras.learning_platform.worksheet_times import submission_times
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.progress_line import printable
@@ -53,7 +55,8 @@ def collect(arguments: list[str] | None = None) -> int:
         assignment = options.assignment or assignment_of(course, options.archive)
         sheet = _sheet(options, course, assignment)
         roster = {each.number: each for each in sheet.people.values()} if sheet else {}
-        report = collect_archive(course, assignment, options.archive, roster)
+        times = submission_times(sheet) if sheet and options.moodle else {}
+        report = collect_archive(course, assignment, options.archive, roster, times)
     except CourseError as error:
         return _failed(f"Nothing was collected: {error}")
     except OSError as error:
@@ -61,6 +64,8 @@ def collect(arguments: list[str] | None = None) -> int:
     counts = f"{len(report.new)} new, {len(report.replaced)} replaced, {len(report.unchanged)} unchanged"
     total = sum(map(len, (report.new, report.replaced, report.unchanged)))
     print(f"{assignment}: {total} submissions collected: {counts}.")
+    if times:
+        print(f"  Their times are those of {options.moodle}, read as local time ({local_zone()}).")
     _list(report.notes, sys.stdout)
     return _list(report.problems, sys.stderr)
 

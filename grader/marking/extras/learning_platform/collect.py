@@ -4,20 +4,18 @@ import shutil
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 
 from grader.marking.errors import CourseError
 from grader.marking.extras.learning_platform.archive import UnusableEntry, open_archive
-from grader.marking.extras.learning_platform.collected import (
-    CollectedUpload,
-    known_students,
-    read_collected,
-    write_collected,
-)
+from grader.marking.extras.learning_platform.known_students import known_students
 from grader.marking.extras.learning_platform.platform_users import PlatformUser, match_users
-from grader.marking.extras.learning_platform.upload_names import first_name
+from grader.marking.extras.learning_platform.upload_names import NamedUpload, first_name
 from grader.marking.extras.learning_platform.uploads import PersonalUpload, sort_uploads
-from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.collected_uploads import CollectedUpload, read_collected, write_collected
+from grader.marking.gradebook.course import Course, write_timestamp
+from grader.marking.submission.submitted_files import IGNORED_FILES
 
 UNSAFE = re.compile(r"[^\w@.'() -]")  # in the name of a folder, which nbgrader shows on its pages
 ASIDE = ".collecting"
@@ -53,9 +51,16 @@ def assignment_of(course: Course, archive: Path) -> str:
 
 
 def collect(
-    course: Course, assignment: str, archive: Path, roster: Mapping[str, PlatformUser] | None = None
+    course: Course,
+    assignment: str,
+    archive: Path,
+    roster: Mapping[str, PlatformUser] | None = None,
+    times: Mapping[str, datetime] | None = None,
 ) -> CollectReport:
-    """Collect an archive. roster: the people of a grading sheet, by number. Raises CourseError, OSError."""
+    """Collect an archive. Raises CourseError, OSError.
+
+    roster, times: the people of a grading sheet, and when they handed in (UTC), by number.
+    """
     if assignment not in course.assignments():
         known = ", ".join(course.assignments())
         raise CourseError(f"there is no assignment {assignment}: there are {known}")
@@ -66,20 +71,29 @@ def collect(
         raise CourseError(f"no file in {archive} can be used: {saw}")
     stored = read_collected(course, assignment)
     for student, upload in _students(course, assignment, uploads, roster or {}, report).items():
-        named, before = upload.newest, stored.get(student, CollectedUpload())
-        if named.attempt < before.attempt:
+        now, before = _collected(upload.newest, times or {}), stored.get(student, CollectedUpload())
+        if now.is_older(before):
             report.notes.append(f"{student}: this upload is older than the one that was collected before")
             continue
         try:
-            _place(course.submitted(student, assignment), upload.read(), student, report)
+            folder = course.submitted(student, assignment)
+            _place(folder, upload.read(), student, report)
         except UnusableEntry as error:
             report.problems.append(f"{student}: the upload of {upload.person.label} {error}")
             continue
-        stored[student] = CollectedUpload(named.person.number, named.lasting, named.attempt, named.feedback)
-        if named.late:
+        stored[student] = now
+        if now.time:
+            write_timestamp(folder, datetime.fromisoformat(now.time))
+        elif now.late:
             report.notes.append(f"{student}: handed in late, as the platform says")
     write_collected(course, assignment, stored)
     return report
+
+
+def _collected(named: NamedUpload, times: Mapping[str, datetime]) -> CollectedUpload:
+    number = named.person.number
+    time = times[number].isoformat() if number in times else ""
+    return CollectedUpload(number, named.lasting, named.attempt, named.feedback, named.late, time)
 
 
 def _notebooks(course: Course, assignment: str) -> list[str]:
@@ -139,7 +153,8 @@ def _place(folder: Path, contents: dict[str, bytes], student: str, report: Colle
 
 def _is_equal(folder: Path, contents: dict[str, bytes]) -> bool:
     paths = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
-    paths.pop("timestamp.txt", None)
+    for name in IGNORED_FILES:
+        paths.pop(name, None)
     return paths.keys() == contents.keys() and all(
         path.read_bytes() == contents[name] for name, path in paths.items()
     )

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
-from grader.marking.extras.learning_platform.collected import read_collected
 from grader.marking.extras.learning_platform.platform_users import PlatformUser
 from grader.marking.extras.learning_platform.upload_names import moodle_folder
+from grader.marking.gradebook.collected_uploads import read_collected
 from grader.marking.gradebook.course import Course
 
 PAGE = "feedback.html"

@@ -5,7 +5,8 @@ from pathlib import PurePosixPath
 
 from grader.marking.extras.learning_platform.archive import ArchiveEntry, UnusableEntry, open_inner
 from grader.marking.extras.learning_platform.platform_users import PlatformUser
-from grader.marking.extras.learning_platform.upload_names import NamedUpload, read_name
+from grader.marking.extras.learning_platform.upload_names import NamedUpload, first_name, read_name
+from grader.marking.submission.submitted_files import IGNORED_FILES
 
 ZIP = ".zip"
 MAX_FILES, MAX_BYTES = 1000, 160_000_000  # of one person's upload
@@ -23,7 +24,7 @@ class PersonalUpload:
     @property
     def newest(self) -> NamedUpload:
         """The newest of the files."""
-        return max((named for named, _ in self.files.values()), key=lambda named: named.attempt)
+        return max((named for named, _ in self.files.values()), key=lambda named: named.order)
 
     def read(self) -> dict[str, bytes]:
         """The contents by path. Raises UnusableEntry."""
@@ -56,13 +57,13 @@ def sort_uploads(
             unused.append(f"{entry.path}: names no student")
             continue
         upload = found.setdefault(named.person, PersonalUpload(named.person))
-        for each, content in _unpacked(named, entry, unused):
+        for each, content in _unpacked(named, entry, notebooks, unused):
             _add(upload, each, content, unused)
     return [upload for upload in found.values() if upload.files]
 
 
 def _unpacked(
-    named: NamedUpload, entry: ArchiveEntry, unused: list[str]
+    named: NamedUpload, entry: ArchiveEntry, notebooks: Collection[str], unused: list[str]
 ) -> Iterator[tuple[NamedUpload, ArchiveEntry]]:
     """The file, or those in it if it is an archive."""
     if entry.problem:
@@ -81,18 +82,21 @@ def _unpacked(
             if each.problem or each.path.lower().endswith(ZIP):
                 unused.append(f"{where}: {each.problem or 'is a ZIP in a ZIP in a ZIP'}")
             else:
-                path = str(PurePosixPath(each.path.removeprefix(top)))
-                yield replace(named, path=path), replace(each, path=where)
+                path, packed = first_name(str(PurePosixPath(each.path.removeprefix(top))), notebooks)
+                yield replace(named, path=path, packed=packed), replace(each, path=where)
 
 
 def _add(upload: PersonalUpload, named: NamedUpload, entry: ArchiveEntry, unused: list[str]) -> None:
     """Add a file, in place of an older one with its path."""
+    if named.path.lower() in IGNORED_FILES:
+        unused.append(f"{entry.path}: is never taken from a student")
+        return
     if named.path in upload.files:
         before, old = upload.files[named.path]
-        if before.attempt >= named.attempt:
+        if before.order >= named.order:
             entry, old = old, entry
             named = before
-        again = "was uploaded again" if before.attempt != named.attempt else "has the name of another file"
+        again = "was uploaded again" if before.order != named.order else "has the name of another file"
         unused.append(f"{old.path}: {again}, {entry.path} counts")
     upload.files[named.path] = named, entry
 

@@ -4,6 +4,7 @@ import io
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 ENGLISH = ("Identifier", "Full name", "Email address", "Status", "Grade", "Maximum Grade", "Grade can be changed")
 ENGLISH += ("Last modified (submission)", "Last modified (grade)", "Feedback comments")
@@ -15,9 +16,9 @@ CANVAS += ("01_class (4711)", "Essay (4712)", "Current Score", "Final Grade")
 
 
 def moodle(
-    people: Sequence[tuple[int, str, str]], header: Sequence[str] = ENGLISH, most: str = "15.00", **fields: str
+    people: Sequence[Sequence[Any]], header: Sequence[str] = ENGLISH, most: str = "15.00", **fields: str
 ) -> str:
-    """A worksheet as PHP's fputcsv writes it. people: number, name, mail. fields: of each row."""
+    """A worksheet as PHP's fputcsv writes it. people: number, name, mail, time if known. fields: of each row."""
     german = header == GERMAN
     word, yes = ("Teilnehmer/in", "Ja") if german else ("Participant ", "Yes")
     rows = [
@@ -25,9 +26,9 @@ def moodle(
             f"{word}{number}",
             *(name, mail, "Zur Bewertung abgegeben" if german else "Submitted for grading"),
             *(fields.get("grade", ""), most, fields.get("can", yes)),
-            *("Monday, 2 March 2026, 10:00 AM", "-", 'Sehr "gut", danke\nWeiter so'),
+            *([*time, "Monday, 2 March 2026, 10:00 AM"][0], "-", 'Sehr "gut", danke\nWeiter so'),
         )
-        for number, name, mail in people
+        for number, name, mail, *time in people
     ]
     return php_csv([header, *rows])
 

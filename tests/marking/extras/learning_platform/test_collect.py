@@ -4,6 +4,7 @@ import json
 import stat
 import struct
 import zipfile
+from datetime import datetime
 
 import nbformat
 import pytest
@@ -68,7 +69,9 @@ def test_a_worksheet_says_who_the_participants_are(course, collect, notebook):
     assert wrong.splitlines() == [
         f"  Anna Meier ({number}): may be anna, and is not collected: {several}." for number in (501, 502)
     ]
-    assert collect(files, "--moodle", "sheet.csv")[:2] == (0, counts(replaced=2, unchanged=1))
+    zone = f"{datetime.now().astimezone():%Z}"
+    times = f"  Their times are those of sheet.csv, read as local time ({zone}).\n"
+    assert collect(files, "--moodle", "sheet.csv")[:2] == (0, counts(replaced=2, unchanged=1) + times)
     assert content(course, "bob") == content(course, "anna") == content(course, "New") == {NB: notebook}
 
 

@@ -1,13 +1,9 @@
-"""What was collected from a platform: for each student the number, and the name that feedback must have."""
+"""What was collected from a platform: of each student the number, the lateness, and the name for feedback."""
 import json
-from collections import defaultdict
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
-from grader.marking.extras.learning_platform.platform_users import KnownStudent
-from grader.marking.gradebook.book import Book, GradebookStudent
 from grader.marking.gradebook.course import Course
 
 
@@ -17,17 +13,25 @@ class CollectedUpload:
 
     lasting: whether the number is this person's in every assignment, as in Canvas.
     feedback: where the platform expects the feedback in a ZIP, with `{page}` for the name of the page.
+    late: whether the platform marks it as late; None if it marks nothing. time: when it was handed in, in
+    ISO format and UTC, or "" if the platform doesn't report it.
     """
 
     number: str = ""
     lasting: bool = False
     attempt: int = 0
     feedback: str = ""
+    late: bool | None = None
+    time: str = ""
+
+    def is_older(self, other: "CollectedUpload") -> bool:
+        """Whether it was uploaded before another one, as far as that is known."""
+        return self.attempt < other.attempt or "" < self.time < other.time
 
 
 def read_collected(course: Course, assignment: str) -> dict[str, CollectedUpload]:
     """The uploads of an assignment by student; {} if none was collected. Raises CourseError."""
-    file = _file(course, assignment)
+    file = course.platform_files() / f"{assignment}.json"
     if not file.exists():
         return {}
     try:
@@ -40,25 +44,5 @@ def read_collected(course: Course, assignment: str) -> dict[str, CollectedUpload
 def write_collected(course: Course, assignment: str, uploads: dict[str, CollectedUpload]) -> None:
     """Store the uploads of an assignment. Raises OSError."""
     data = {student: asdict(each) for student, each in sorted(uploads.items())}
-    write_atomically(_file(course, assignment), json.dumps(data, indent=1, ensure_ascii=False) + "\n", 0o600)
-
-
-def known_students(course: Course, assignment: str) -> list[KnownStudent]:
-    """Everyone in the gradebook or with a submission, with the platform's numbers."""
-    with Book(course) as book:
-        about = {each.student: each for each in book.students()}
-    numbers: dict[str, set[str]] = defaultdict(set)
-    for name in course.assignments():
-        for student, each in read_collected(course, name).items():
-            if each.lasting or name == assignment:
-                numbers[student].add(each.number)
-    everyone = sorted({*about, *course.students(assignment), *numbers})
-    known = {student: about.get(student) or GradebookStudent(student, "", "", "") for student in everyone}
-    return [
-        KnownStudent(student, each.first, each.last, each.mail, frozenset(numbers[student]))
-        for student, each in known.items()
-    ]
-
-
-def _file(course: Course, assignment: str) -> Path:
-    return course.platform_files() / f"{assignment}.json"
+    file = course.platform_files() / f"{assignment}.json"
+    write_atomically(file, json.dumps(data, indent=1, ensure_ascii=False) + "\n", 0o600)
