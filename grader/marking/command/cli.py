@@ -9,6 +9,7 @@ from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
 from grader.marking.command import machine
+from grader.marking.command.dry_run import rehearse
 from grader.marking.command.mark_class import OpenPool, Outcome, Settings, mark_class
 from grader.marking.command.summary import summarize
 from grader.marking.command.summary_page import as_page, page_links
@@ -21,6 +22,7 @@ from grader.marking.pool import Pool
 from grader.marking.progress_line import printable
 from grader.marking.self_check import check_marking
 from grader.marking.task import TaskPool
+from grader.marking.version import course_version
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
@@ -45,6 +47,7 @@ def parser() -> argparse.ArgumentParser:
     add("--resume", action="store_true", help="continue the last run of the assignment, with its options")
     add("--unsafe", action="store_true", help="no sandbox: students' code can do anything that you can")
     add("--no-feedback", action="store_true", help="don't make pages for students")
+    add("--dry-run", action="store_true", help="print whose marks would change and why; write nothing")
     add("--csv", default="", metavar="FILE", help="write the points there, a row per student and exercise")
     add("--html", default="", metavar="FILE", help="write the summary there, as a page")
     add("--dask", default="", metavar="ADDRESS", help="mark on the workers of this Dask scheduler")
@@ -57,11 +60,17 @@ def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) 
     options = form.parse_args(arguments)
     if not (options.assignment or options.check):
         form.error("the following arguments are required: ASSIGNMENT")
+    if options.dry_run and (options.csv or options.html):
+        form.error("--dry-run writes nothing: leave out --csv and --html")
     try:
         course = Course(Path.cwd())
         settings = _settings(options, course)
         if options.check:
             return _check(course, settings, open_pool or _open_pool)
+        if options.dry_run:
+            rehearsal = rehearse(course, options.assignment, settings, open_pool or _open_pool)
+            print("\n".join(rehearsal.lines(options.assignment)))
+            return 0
         outcome = mark_class(course, options.assignment, settings, open_pool or _open_pool)
         _report(options, course, settings, outcome)
     except (CourseError, SandboxMissing, SandboxFailed) as error:
@@ -127,7 +136,8 @@ def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
 
 
 def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:
-    summary = summarize(options.assignment, outcome.worth, outcome.results, outcome.standings, outcome.notes)
+    about = outcome.worth, outcome.results, outcome.standings, outcome.notes
+    summary = summarize(options.assignment, *about, course_version())
     if outcome.results:
         print(as_text(summary))
     if outcome.due:

@@ -61,7 +61,8 @@ class MarkingTimes:
 class Summary:
     """The summary of a marked class. worth: the points of each test cell. names: their titles.
 
-    unstarted: how many students did not begin an exercise, for those that some did not begin.
+    unstarted: how many students did not begin an exercise, for those that some did not begin. version: of
+    the course's code that judged.
     """
 
     assignment: str
@@ -72,6 +73,7 @@ class Summary:
     mistakes: list[CommonMistake]
     concerns: list[Concern]
     times: MarkingTimes | None
+    version: str = ""
 
     @property
     def any_late(self) -> bool:
@@ -85,10 +87,12 @@ def summarize(
     results: Mapping[str, Result],
     standings: Mapping[str, Standing] | None = None,
     notes: Iterable[tuple[str, str]] = (),
+    version: str = "",
 ) -> Summary:
     """Summarize the results of a class. worth: points by notebook and cell. results: by student.
 
-    standings: what the gradebook says of these students. notes: further concerns, of whom and what.
+    standings: what the gradebook says of these students. notes: further concerns, of whom and what. version:
+    of the course's code that judged.
     """
     standings = standings or {}
     ordered = [results[student] for student in sorted(results)]
@@ -103,7 +107,7 @@ def summarize(
     unstarted = Counter(cell.exercise for _, cell in every if _is_unstarted(cell))
     begun = [(student, cell) for student, cell in every if not _is_unstarted(cell)]
     rows, times = [_student_row(each, standings.get(each.student)) for each in ordered], _times(ordered)
-    return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), concerns, times)
+    return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), concerns, times, version)
 
 
 def cells(result: Result) -> Iterator[tuple[tuple[str, str], CellResult]]:

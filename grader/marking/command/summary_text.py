@@ -30,6 +30,8 @@ def as_text(summary: Summary, mistakes: int = MISTAKES) -> str:
 def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
     many = len(summary.rows) > MANY
     yield from _spread(summary) if many else _table(summary)
+    if summary.version:
+        yield f"Version of the course: {summary.version}"
     if summary.unstarted:
         counts = ", ".join(f"{exercise} {count}" for exercise, count in summary.unstarted.items())
         text = f"Students, of {len(summary.rows)}, who have not started: {counts}"

@@ -1,7 +1,6 @@
 """Reads and writes nbgrader's gradebook, as `nbgrader autograde` does."""
 import contextlib
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 from datetime import datetime
 from types import TracebackType
 
@@ -12,7 +11,6 @@ from nbgrader.api import (
     InvalidEntry,
     MissingEntry,
     Student,
-    SubmittedAssignment,
     SubmittedNotebook,
 )
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, is_task
@@ -21,6 +19,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.gradebook_rows import GradebookMark, GradebookStudent, read_mark
 from grader.marking.gradebook.student_standings import Standing, extend, penalize, read_standings
 from grader.marking.result import CellResult, Result
 
@@ -32,33 +31,6 @@ ADVICE = {
     "full": "the disk is full: free some space, then mark again",
     "no such": "it is another nbgrader version's: copy it, run `nbgrader db upgrade`, then mark again",
 }
-
-
-@dataclass(frozen=True)
-class GradebookMark:
-    """A student's mark for an assignment in the gradebook.
-
-    name: first and last, or the id. points: with points entered by hand and late penalties.
-    by_marking: the points of each test cell, by notebook and cell; None if it was not marked.
-    """
-
-    student: str
-    name: str
-    assignment: str
-    points: float
-    most: float
-    by_marking: dict[tuple[str, str], float | None]
-    needs_look: bool
-
-
-@dataclass(frozen=True)
-class GradebookStudent:
-    """A student of the class, with what the gradebook knows of the name."""
-
-    student: str
-    first: str
-    last: str
-    mail: str
 
 
 class Book:
@@ -102,7 +74,7 @@ class Book:
         """All marks of the class, by assignment and student."""
         with self._transaction() as book:
             submissions = [found for each in book.assignments for found in each.submissions]
-            return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
+            return sorted(map(read_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
 
     def standings(
         self, assignment: str, extensions: Mapping[str, datetime] | None = None, ended: Collection[str] = ()
@@ -178,20 +150,6 @@ class Book:
             place = self._address.render_as_string(hide_password=True)
             problem = f"the gradebook {place} can't be used ({reason})"
             raise GradebookError(f"{problem}: {next(advice, 'repair it, then mark again')}") from None
-
-
-def _mark(found: SubmittedAssignment) -> GradebookMark:
-    who = found.student
-    cells = {(note.name, grade.name): grade.auto_score for note in found.notebooks for grade in note.grades}
-    return GradebookMark(
-        student=who.id,
-        name=" ".join(part for part in (who.first_name, who.last_name) if part) or who.id,
-        assignment=found.assignment.name,
-        points=max(0.0, found.score - (found.late_submission_penalty or 0.0)),
-        most=found.max_score,
-        by_marking=cells,
-        needs_look=bool(found.needs_manual_grade),
-    )
 
 
 def _name(student: Student) -> None:

@@ -93,10 +93,10 @@ def _add(upload: PersonalUpload, named: NamedUpload, entry: ArchiveEntry, unused
         return
     if named.path in upload.files:
         before, old = upload.files[named.path]
+        again = "was uploaded again" if before.order != named.order else "has the name of another file"
         if before.order >= named.order:
             entry, old = old, entry
             named = before
-        again = "was uploaded again" if before.order != named.order else "has the name of another file"
         unused.append(f"{old.path}: {again}, {entry.path} counts")
     upload.files[named.path] = named, entry
 
