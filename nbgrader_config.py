@@ -35,6 +35,15 @@ course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*",
 # The release is under version control, so it has the one form of our notebooks.
 c.GenerateAssignment.post_convert_hook = "grader.marking.release.make_exercises.tidy"
 
+# An instructor may leave out exercises and change points: grader/YOUR_FIRST_EXERCISE.md.
+if Path("class", "course.toml").exists():
+    from nbgrader.converters import GenerateAssignment
+
+    from grader.marking.release.own_choice import OwnChoice
+
+    c.OwnChoice.file = str(Path("class", "course.toml").absolute())
+    c.GenerateAssignment.preprocessors = [OwnChoice, *GenerateAssignment.preprocessors.default()]
+
 # On a busy machine a kernel needs long to start, in seconds.
 c.Execute.startup_timeout = 600
 

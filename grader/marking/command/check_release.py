@@ -14,6 +14,8 @@ from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.find_submissions import REMAKE
 from grader.marking.judge import testcells
 
+HIDDEN = "### BEGIN HIDDEN TESTS"
+
 
 def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str], float] | None) -> None:
     """Raise CourseError unless solutions, release and gradebook agree, and the tests can be marked here.
@@ -45,7 +47,11 @@ def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str
 def _released(course: Course, source: Path) -> NotebookNode:
     """The release that nbgrader makes of a notebook with answers, without entering it into the gradebook."""
     converter = GenerateAssignment(coursedir=course.directory, parent=course.app)
-    notebook, resources = nbformat.read(source, 4), {"nbgrader": {}, "unique_key": source.stem}
+    notebook = nbformat.read(source, 4)
+    if any(HIDDEN in cell.source for cell in notebook.cells):
+        file = source.relative_to(course.root)
+        raise CourseError(f"{file} has hidden tests, which only `nbgrader autograde` runs: show these tests")
+    resources = {"nbgrader": {"assignment": source.parent.name}, "unique_key": source.stem}
     for step in converter.preprocessors:
         if step not in (SaveCells, InstantiateTests):
             notebook, resources = step(parent=converter)(notebook, resources)

@@ -13,6 +13,7 @@ from nbformat import NotebookNode
 from grader.marking.errors import Unusable
 from grader.marking.judge.marking_state import MarkingState, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
+from grader.marking.judge.plain_tests import PlainTest
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
 from grader.marking.outputs import writable_text
 from grader.marking.result import NotebookResult, Result
@@ -34,7 +35,9 @@ def find_exercises(marking: MarkingState) -> None:
     """Find the exercises of the test cells. Raises UnknownTest for a release that can't be marked here."""
     for name, released in marking.task.release.notebooks.items():
         names = exercise_names(released)
-        marking.exercises[name] = {cell: find_exercise(full) for cell, full in names.items()}
+        marking.exercises[name] = {
+            cell: find_exercise(full) if full else PlainTest(cell) for cell, full in names.items()
+        }
 
 
 def flag_suspicious_code(marking: MarkingState) -> None:

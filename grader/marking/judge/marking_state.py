@@ -9,6 +9,7 @@ from nbformat import NotebookNode
 
 from grader.exercise import Exercise
 from grader.marking.judge.cell_outputs import DisplayRegistry
+from grader.marking.judge.plain_tests import PlainTest
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.result import CellResult
 from grader.marking.submission.rebuild import RebuiltSubmission
@@ -30,7 +31,7 @@ class MarkingState:
     secret: str
     start_session: StartSession
     rebuilt: RebuiltSubmission = field(default_factory=RebuiltSubmission)
-    exercises: dict[str, dict[str, Exercise]] = field(default_factory=dict)
+    exercises: dict[str, dict[str, Exercise | PlainTest]] = field(default_factory=dict)
     cells: dict[str, list[CellResult]] = field(default_factory=dict)
     displays: DisplayRegistry = field(default_factory=DisplayRegistry)
     flags: list[str] = field(default_factory=list)
@@ -55,6 +56,6 @@ def cell_name(cell: NotebookNode) -> str:
     return cell.metadata.get("nbgrader", {}).get("grade_id", "")
 
 
-def no_points(cell: NotebookNode, exercise: Exercise) -> CellResult:
+def no_points(cell: NotebookNode, exercise: Exercise | PlainTest) -> CellResult:
     """The result of a test cell that ran no nodes."""
     return CellResult(cell_name(cell), exercise.name, 0.0, float(cell.metadata.nbgrader.points))

@@ -16,6 +16,7 @@ from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry
 from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
+from grader.marking.judge.plain_tests import PlainTest, read_points
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.judge.testcells import imported_packages, is_test
 from grader.marking.outputs import writable_text
@@ -155,6 +156,8 @@ class NotebookRun:
     ) -> list[dict[str, Any]]:
         """Judge the nodes of a test cell; returns the cell's outputs, which are the judge's own."""
         exercise = self._exercises[cell_name(cell)]
+        if isinstance(exercise, PlainTest):
+            return self._plain_test(session, cell, shown)
         tested = session.test(cell.source, exercise, shown, self._marking.secret)
         self._flag(cell, tested.flags)
         if tested.error is not None:
@@ -168,12 +171,21 @@ class NotebookRun:
         score, worth = tested.score, float(cell.metadata.nbgrader.points)
         self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
         problems = score_outputs.alarms(score)
-        if score.max != worth:
-            problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")
         self._flag(cell, [*problems, *score_outputs.spoofed_topics(score)])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
-        return [*score_outputs.outputs(shown_score, number), *self._written(shown)]
+        converted = _text(score_outputs.conversion(shown_score, worth))
+        return [*score_outputs.outputs(shown_score, number), *converted, *self._written(shown)]
+
+    def _plain_test(
+        self, session: StudentSession, cell: NotebookNode, shown: CellOutputs
+    ) -> list[dict[str, Any]]:
+        """Run a plain test in the student's process; returns its outputs."""
+        session.run(cell.source, shown)
+        result, problem = read_points(cell_name(cell), float(cell.metadata.nbgrader.points), shown.list)
+        self._flag(cell, [problem] if problem else [])
+        self._results.append(result)
+        return shown.list
 
     def _course_error(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
         """The result after an error of the course: the instructor has to look."""

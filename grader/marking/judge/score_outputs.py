@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -11,6 +12,8 @@ from grader.checks.verdicts import SPOOFED_TOPICS
 from grader.marking.outputs import FOR_INSTRUCTOR, mime_bundle
 from grader.marking.result import CellResult
 from grader.score import Score
+
+NEAR = 1e-6
 
 
 def for_student(score: Score) -> Score:
@@ -58,11 +61,23 @@ def for_instructor(text: str) -> list[dict[str, Any]]:
     return [{"output_type": "display_data", **shown}] if text else []
 
 
+def converted(score: Score, worth: float) -> float:
+    """The points of a score in a notebook that gives other points than the exercise: class/course.toml."""
+    return math.floor(float(score) / score.max * worth * 100 + NEAR) / 100 if score.max else 0.0
+
+
+def conversion(score: Score, worth: float) -> str:
+    """A sentence for the student's page where the points are converted, or ""."""
+    if score.max == worth:
+        return ""
+    return f"{float(score):g} of {score.max:g} are {converted(score, worth):g} of {worth:g} points here."
+
+
 def cell_result(cell: str, score: Score, worth: float, needs_look: bool) -> CellResult:
     """The result of a test cell with this grade_id. worth: its points in the notebook."""
     digests = [recording.digest for recording in score.recordings]
     data = score.as_dict()
-    points = min(float(score), worth)
+    points = converted(score, worth)
     return CellResult(cell, score.exercise, points, worth, data["verdicts"], digests, needs_look)
 
 

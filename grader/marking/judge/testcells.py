@@ -15,10 +15,10 @@ HOME = "grader.exercises"
 
 
 def exercise_names(notebook: NotebookNode) -> dict[str, str]:
-    """The full name of the exercise by the grade_id of the test cell, in order.
+    """The full name of the exercise by the grade_id of the test cell, in order; "" for a plain test.
 
     `topics.square.grade(Driver)` after `from grader.exercises import topics` is
-    "grader.exercises.topics.square". Raises UnknownTest for any other test cell.
+    "grader.exercises.topics.square". Plain tests call no `grade`. Raises UnknownTest for any other test cell.
     """
     names = course_imports(cell.source for cell in notebook.cells if cell.cell_type == "code")
     return {
@@ -69,14 +69,18 @@ def imported_packages(cells: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def _exercise_name(source: str, names: dict[str, str], cell: str) -> str:
-    match getattr(_parsed(source), "body", None):
+    parsed = _parsed(source)
+    match getattr(parsed, "body", None):
         case [ast.Expr(ast.Call(ast.Attribute(owner, "grade")))]:
             first, *rest = ast.unparse(owner).split(".")
             if first in names and all(part.isidentifier() for part in rest):
                 return ".".join([names[first], *rest])
+        case [_, *_] if not any(getattr(each, "attr", "") == "grade" for each in ast.walk(parsed)):
+            return ""
     raise UnknownTest(
         f"The test cell `{cell}` can't be marked here: expected a line such as `topics.square.grade(Driver)` "
-        f"and a cell that imports `topics` from {HOME}. `nbgrader autograde` marks other tests."
+        f"and a cell that imports `topics` from {HOME}, or Python that calls no `grade`, such as "
+        "`assert double(3) == 6`."
     )
 
 

@@ -33,7 +33,8 @@ MARKING_EXCLUDED = (
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
-    *("jupyter/teach", "jupyter/hub", "course/README.md", "grader/README.md"),
+    *("jupyter/teach", "jupyter/hub", "course/README.md"),
+    *("grader/README.md", "grader/YOUR_FIRST_EXERCISE.md"),
 )
 TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile that are included
 TOOL_FOLDERS = {"__pycache__", ".ipynb_checkpoints", "build"}

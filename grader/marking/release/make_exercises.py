@@ -11,12 +11,14 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import nbformat
 from nbgrader.converters import GenerateAssignment
 from nbgrader.utils import capture_log, temp_attrs
 
 from grader.marking.errors import CommandFailed, MarkingError
 from grader.marking.gradebook.course import Course
 from grader.marking.release.nbgrader_command import assignments, failure
+from grader.marking.release.own_choice import FILE, choose, read_choice
 from grader.notebook_format import normalize
 
 ASIDE = ".exercises.part"
@@ -71,6 +73,9 @@ def release(course: Path, report: Callable[[str], None] = lambda line: None) -> 
 def _release_one(course: Course, assignment: str) -> None:
     """Make one assignment aside, and move it to exercises/ when it is complete."""
     aside, target = course.root / ASIDE / assignment, course.root / "exercises" / assignment
+    choice = read_choice(course.root / FILE).get(assignment, {})
+    for source in course.source(assignment).glob("*.ipynb"):
+        choose(nbformat.read(source, 4), choice, assignment)  # for its error, of which nbgrader makes a log
     try:
         with temp_attrs(course.directory, assignment_id=assignment, release_directory=ASIDE):
             converter = GenerateAssignment(coursedir=course.directory, parent=course.app, force=True)
@@ -100,6 +105,9 @@ def copy_of_course(course: Path, target: Path) -> Path:
     left_behind = shutil.ignore_patterns(".ipynb_checkpoints", "__pycache__")
     shutil.copytree(course / "solutions", target / "solutions", ignore=left_behind)
     shutil.copy(course / "nbgrader_config.py", target)
+    if (course / FILE).exists():
+        (target / FILE).parent.mkdir()
+        shutil.copy(course / FILE, target / FILE)
     return target
 
 

@@ -284,15 +284,18 @@ def test_a_judge_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch)
     )
 
 
-def test_points_of_the_notebook_and_the_exercise_that_differ_are_flagged(marked, monkeypatch):
+def test_points_are_converted_where_the_notebook_gives_others_than_the_exercise(marked, monkeypatch):
     worth_more = replace(topics.greeting, checks=[*topics.greeting.checks, *topics.remapping.checks])
     monkeypatch.setattr("grader.exercises.topics.greeting", worth_more)
     result = marked()
     [first, _] = result.notebooks[0].cells
-    assert (first.points, first.max, first.needs_look) == (8.0, 8.0, True)
-    assert result.flags[0] == (
-        "The test cell `greeting-points`: worth 8 points in the notebook and 20 in its exercise."
-    )
+    earned = sum(verdict["earned"] for verdict in first.verdicts)
+    assert 0 < earned < 20
+    assert first.points == pytest.approx(earned * 8 / 20, abs=0.01)
+    assert (first.max, first.needs_look) == (8.0, False)
+    assert result.flags == []
+    converted = f"{earned:g} of 20 are {first.points:g} of 8 points here.\n"
+    assert text(result, "greeting-points").startswith(converted)
 
 
 def test_what_cant_be_read_is_refused(tmp_path, start_student, monkeypatch):
@@ -306,7 +309,7 @@ def test_what_cant_be_read_is_refused(tmp_path, start_student, monkeypatch):
 def test_an_assignment_with_other_tests_is_refused(tmp_path, start_student, monkeypatch):
     released = release(tmp_path / "02_two")
     notebook = nbformat.read(released / "two.ipynb", 4)
-    notebook.cells[3].source = "assert Greeter"
+    notebook.cells[3].source = "points = topics.greeting.grade(Greeter)"
     nbformat.write(notebook, released / "two.ipynb")
     with pytest.raises(UnknownTest, match=r"^The test cell `greeting-points` can't be marked here"):
         mark_submission(hand_in(tmp_path / "ann", released), "", start_student)

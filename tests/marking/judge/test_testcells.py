@@ -44,9 +44,8 @@ def test_an_exercise_is_found_by_its_import(setup):
 @pytest.mark.parametrize(
     "line",
     [
-        "assert double(3) == 6",
         "topics.square.grade",
-        "1.0",
+        "%matplotlib inline",
         "x = topics.square.grade(Driver)",
         "topics.square.grade(Driver)\nprint()",
         "topics().square.grade(Driver)",
@@ -62,8 +61,14 @@ def test_another_test_cell_is_refused_with_a_way_out(line):
     assert str(refused.value) == (
         "The test cell `my_points` can't be marked here: "
         "expected a line such as `topics.square.grade(Driver)` "
-        "and a cell that imports `topics` from grader.exercises. `nbgrader autograde` marks other tests."
+        "and a cell that imports `topics` from grader.exercises, or Python that calls no `grade`, such as "
+        "`assert double(3) == 6`."
     )
+
+
+@pytest.mark.parametrize("line", ["assert double(3) == 6", "points = 1.5\npoints", "import math"])
+def test_plain_python_is_a_test_without_an_exercise(line):
+    assert exercise_names(notebook(IMPORT, grade("my_points", 3, line))) == {"my_points": ""}
 
 
 def test_an_import_of_something_else_is_no_exercise():

@@ -92,6 +92,6 @@ def _doubt(mark: GradebookMark, entry: JournalEntry | None, key: str) -> str:
 def _exercises(course: Course, assignment: str) -> Iterator[tuple[str, Exercise]]:
     """The exercises of an assignment by name."""
     for path in sorted(course.release(assignment).glob("*.ipynb")):
-        for name in exercise_names(nbformat.read(path, 4)).values():
+        for name in filter(None, exercise_names(nbformat.read(path, 4)).values()):
             found = find_exercise(name)
             yield found.name, found
