@@ -43,7 +43,7 @@ def test_the_exercise_of_the_page_is_marked_as_the_page_says(own, capsys):
     for command in copies:
         subprocess.run(shlex.split(command), check=True)
     half = own / "class" / "submitted" / "half" / "my_first" / "first.ipynb"
-    half.parent.mkdir()
+    half.parent.mkdir(parents=True)
     half.write_text((own / "solutions/my_first/first.ipynb").read_text().replace("timer(0.5", "timer(1.0"))
     assert mark(["my_first", "--student", "right", "--student", "empty"]) == 0
     assert capsys.readouterr().out.startswith(TABLE)
