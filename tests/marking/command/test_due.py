@@ -55,7 +55,7 @@ def test_a_deadline_with_an_extension_costs_what_the_page_says(course, say):  # 
     late = {who: (round(each.days_late, 2), each.penalty) for who, each in outcome.standings.items()}
     assert late == {"anna": (0.71, 1.0), "bob": (1.71, 0.0), "eve": (1.71, 2.0)}
     page = (course.feedback("anna", ASSIGNMENT) / "nodes.html").read_text()
-    reported = "handed in 0.7 days after Wed 31 December 2025, 18:00 CET, which costs 1 points"
+    reported = "handed in 17 hours after Wed 31 December 2025, 18:00 CET, which costs 1 points"
     assert reported in page
     assert say("due", ASSIGNMENT, "none", "--student", "anna")[0] == 0
     assert mark(course).standings["anna"].penalty == 2.0
