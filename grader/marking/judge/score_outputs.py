@@ -63,7 +63,9 @@ def for_instructor(text: str) -> list[dict[str, Any]]:
 
 def converted(score: Score, worth: float) -> float:
     """The points of a score in a notebook that gives other points than the exercise: class/course.toml."""
-    return math.floor(float(score) / score.max * worth * 100 + NEAR) / 100 if score.max else 0.0
+    if score.max == worth or not score.max:
+        return float(score)
+    return math.floor(float(score) / score.max * worth * 100 + NEAR) / 100
 
 
 def conversion(score: Score, worth: float) -> str:

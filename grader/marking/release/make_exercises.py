@@ -74,7 +74,7 @@ def _release_one(course: Course, assignment: str) -> None:
     """Make one assignment aside, and move it to exercises/ when it is complete."""
     aside, target = course.root / ASIDE / assignment, course.root / "exercises" / assignment
     choice = read_choice(course.root / FILE).get(assignment, {})
-    for source in course.source(assignment).glob("*.ipynb"):
+    for source in course.source(assignment).glob("*.ipynb") if choice else ():
         choose(nbformat.read(source, 4), choice, assignment)  # for its error, of which nbgrader makes a log
     try:
         with temp_attrs(course.directory, assignment_id=assignment, release_directory=ASIDE):
