@@ -9,6 +9,7 @@ from grader.marking import secret
 from grader.marking.command.check_release import check_release
 from grader.marking.command.mark_class import OpenPool, Settings
 from grader.marking.command.task_reader import TaskReader
+from grader.marking.command.unjudged import Unjudged
 from grader.marking.gradebook.book import Book, GradebookMark
 from grader.marking.gradebook.course import Course, timestamp
 from grader.marking.gradebook.dry_book import DryBook
@@ -45,12 +46,16 @@ class MarkChange:
 
 @dataclass
 class Rehearsal:
-    """The outcome of a dry run. judged: the students who were judged again, with the reason."""
+    """The outcome of a dry run. judged: the students who were judged again, with the reason.
+
+    before: the versions of the course that marked them. broken: why a student could not be judged.
+    """
 
     total: int
     judged: dict[str, str] = field(default_factory=dict)
     changes: list[MarkChange] = field(default_factory=list)
     before: set[str] = field(default_factory=set)
+    broken: dict[str, str] = field(default_factory=dict)
 
     def lines(self, assignment: str) -> Iterator[str]:
         """What would change, for a terminal."""
@@ -59,6 +64,8 @@ class Rehearsal:
         for change in self.changes:
             now = "none" if change.now is None else f"{change.now:g}"
             yield printable(f"  {change.student}: {now} -> {change.then:g}: {'; '.join(change.why)}")
+        for student, why in sorted(self.broken.items()):
+            yield printable(f"  {student}: could not be judged. {why}")
         older = f"{', '.join(sorted(self.before))} -> " if self.before else ""
         yield f"Version of the course: {older}{course_version()}"
         yield (
@@ -74,14 +81,20 @@ def rehearse(course: Course, assignment: str, settings: Settings, open_pool: Ope
     with Book(course) as book:
         check_release(course, assignment, book.cells(assignment))
     release = load_release(course.release(assignment))
-    outcome, entries = Rehearsal(len(submissions)), {}
+    outcome, entries, unjudged = Rehearsal(len(submissions)), {}, Unjudged()
     tasks = _unmarked(course, release, key, submissions, settings.force, entries, outcome)
     first = next(tasks, None)
     if first is not None:
         with open_pool(settings, key) as pool, contextlib.closing(ProgressLine(len(submissions))) as progress:
             for result in pool.mark(itertools.chain([first], tasks)):
-                entries[result.student] = JournalEntry("", _light(result))
+                if not result.judged:
+                    unjudged.add(result)
+                else:
+                    entries[result.student] = JournalEntry("", _light(result))
                 progress.add_result(result)
+    for result in unjudged.release(entries, settings.students):
+        entries[result.student] = JournalEntry("", _light(result))
+    outcome.broken = unjudged.broken
     outcome.changes = _compare(course, release, entries, outcome.judged)
     return outcome
 

@@ -8,7 +8,7 @@ from grader.marking.command.task_reader import TaskReader
 from grader.marking.gradebook.book import Book
 from grader.marking.journal import Journal
 from grader.marking.version import course_version
-from tests.marking.classroom import ASSIGNMENT, submit
+from tests.marking.classroom import ASSIGNMENT, result, submit
 from tests.marking.fake_pool import ReadyPool
 from tests.marking.marked_class import course, marked, marked_template, say, write_secret  # noqa: F401
 
@@ -113,6 +113,16 @@ def test_a_due_date_that_was_set_later(rehearse, course, say):  # noqa: F811
     assert (judged, lines[1]) == ([], "  anna: 15 -> 13.5: penalty for being late 0 -> 1.5")
     with Book(course) as book:
         assert book.marks() == before
+
+
+def test_a_submission_that_could_not_be_judged_is_named(course, capsys):  # noqa: F811
+    submit(course, "zoe")
+    broken = {"verdict": "broken", "reason": "No memory.", "notebooks": []}
+    pool = ReadyPool(course, lambda *about: result(*about, **broken))
+    assert cli.main([ASSIGNMENT, "--dry-run"], pool.open) == 0
+    named = "  zoe: could not be judged. No memory."
+    found = capsys.readouterr().out.splitlines()
+    assert found == [named, f"Version of the course: {VERSION}", last(0, 1, 4)]
 
 
 def test_it_writes_no_files(course, capsys):  # noqa: F811
