@@ -16,7 +16,7 @@ from typing import Any
 from grader.checks.verdicts import WORST_FIRST, Verdict, rank
 from sim.evidence import Recording
 from sim.order import Order
-from sim.ros.exploring import failure_of, list_departures, shrink
+from sim.ros.exploring import consequences, list_departures, shrink
 
 USUAL = ""
 PASSED = True, 1.0, WORST_FIRST.index("passed")
@@ -60,7 +60,8 @@ class OrderDifference:
 
     def __repr__(self) -> str:
         differences = list_departures(self.other.departures)
-        text = f"On a robot this order is possible, too: {differences}. {failure_of(self.other)}".rstrip()
+        follows = consequences(self.usual, self.other)
+        text = f"On a robot this order is possible, too: {differences}. {follows}".rstrip()
         again = f" Try it: explore(..., holds=EXERCISE), or in_order(..., order={self.other.order!r})."
         return text + (again if self.public else "")
 

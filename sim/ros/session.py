@@ -78,6 +78,8 @@ class Session:
         self._until = until
         self._loop: MainLoop | None = None
         self._preemption: Preemption | None = None  # in another order than the usual one
+        if Preemption.is_needed(chosen):
+            self._preemption = Preemption([spec.target for spec in self._specs])
         self._reached: Nanoseconds = 0  # up to which all is done
         self._process, self._random, self._stderr = ProcessState(), SeededRandom(seed), FileDescriptor2()
         self._screen = Screen(quiet)
@@ -167,8 +169,9 @@ class Session:
             rebind(_names_around(spec.target))
         if self.recording.world is not None:
             self.truth = GroundTruth(self.recording)
-        if self.engine.choices is not None:
-            self._preemption = Preemption([spec.target for spec in self._specs])
+        if self._preemption is not None:
+            self._preemption.begin()
+            self.engine.preemption = self._preemption
         self.engine.open(self.truth)
         for spec in programs_of(self.truth.scene) if self.truth is not None else []:
             self.engine.start(spec, from_course=True)
@@ -182,11 +185,11 @@ class Session:
     def _close(self, ended: Ended) -> None:
         self.over, self.recording.ended = True, ended
         vars(self.recording).pop("digest", None)  # `until` may have computed it
+        if self._preemption is not None:
+            self._preemption.end(self.engine)
         if self._loop is not None:
             self._loop = None
             self.engine.close()
-        if self._preemption is not None:
-            self._preemption.restore()
 
     def _clean_up(self) -> None:
         self.engine.recorder.add_stderr(self._stderr.close())

@@ -110,6 +110,10 @@ class Engine(Scheduler):
         """Once no program can go on, the deadlines of this moment have passed; whether there were any."""
         return self.transport.events.run_deadlines(self.now)
 
+    def others_due(self, within: Nanoseconds) -> bool:
+        """As `Scheduler`; messages arrive, too."""
+        return super().others_due(within) or self.transport.events.next_due(NEVER) <= self.now + within
+
     def can_go_on(self) -> bool:
         """Whether there is still something to do at this moment."""
         runnable = any(not fiber.done and fiber.runnable() for fiber in self.fibers)

@@ -9,11 +9,15 @@ from typing import Any, Protocol
 from sim.evidence import Recording
 from sim.notebook import in_notebook, raise_if_outdated
 from sim.order import LEVELS, NETWORK, SPREAD, Order
+from sim.ros.engine.preemption import Observer
 from sim.ros.exploring.explored import Explored
+from sim.ros.exploring.race import race
 from sim.ros.exploring.shrink import shrink
 from sim.ros.run import run
 
 MOST_SHRINKING = 300  # runs
+FURTHER = 40  # orders that are tried after the first that fails, as long as more than one departure is left
+AGAIN = 10  # runs in the order that was found
 SILENT = {"quiet": True, "expect_error": True}
 
 Holds = Callable[[Recording], bool]
@@ -65,7 +69,8 @@ def explore(
     raise_if_outdated(nodes)
     search = _Search(_attempt(nodes, holds, arguments), orders, level, spread)
     try:
-        search.run()
+        with search.observer.active():
+            search.run()
     except KeyboardInterrupt:
         search.found.interrupted = True
         if search.found.usual.stamp == 0:
@@ -91,7 +96,8 @@ class _Search:
 
     def __init__(self, attempt: Attempt, orders: int, level: str, spread: float) -> None:
         self.progress = _progress(orders)
-        self.found = Explored(Recording(), level=level)
+        self.observer = Observer()
+        self.found = Explored(Recording(), level=level, unseen=self.observer.unseen)
         self._attempt, self._orders, self._level, self._spread = attempt, orders, level, spread
 
     def run(self) -> None:
@@ -102,35 +108,65 @@ class _Search:
             found.failed, found.recording = 0, found.usual
             return
         for number in range(1, self._orders + 1):
-            self.progress.show(f"order {number} of {self._orders}", number)
-            order = Order(str(number), self._level, self._spread)
-            recording, holds = self._attempt(str(order))
+            fails = self._try(number)
             found.tried = number
-            if not holds:
-                found.failed, found.number, found.recording = str(order), number, recording
-                self._shrink(order)
-                return
+            if fails:
+                break
+        else:
+            return
+        for number in range(found.tried + 1, min(found.tried + FURTHER, self._orders) + 1):
+            if len(found.departures) == 1:
+                break
+            self._try(number)
+        self._explain()
 
-    def _shrink(self, order: Order) -> None:
-        """Keep the fewest departures with which it still fails."""
+    def _try(self, number: int) -> bool:
+        """Try an order; whether it fails. Then store it with fewest departures, if no other has fewer."""
+        self.progress.show(f"order {number} of {self._orders}", number)
+        order = Order(str(number), self._level, self._spread)
+        recording, holds = self._attempt(str(order))
+        if holds:
+            return False
+        best, limited = recording, order
         runs = 0
 
         def fails(ids: list[str]) -> bool:
-            nonlocal runs
+            nonlocal best, limited, runs
             runs += 1
             if runs > MOST_SHRINKING:
                 return False
-            self.progress.show(f"order {self.found.number} fails; {len(ids)} departures", self.found.number)
-            limited = str(order.limited_to(frozenset(ids)))
-            recording, holds = self._attempt(limited)
-            if not holds and len(recording.departures) <= len(self.found.departures):
-                self.found.failed, self.found.recording = limited, recording
+            self.progress.show(f"order {number} fails; {len(ids)} departures", number)
+            tried = order.limited_to(frozenset(ids))
+            recording, holds = self._attempt(str(tried))
+            if not holds and len(recording.departures) <= len(best.departures):
+                best, limited = recording, tried
             return not holds
 
-        ids = [departure.id for departure in self.found.departures]
-        if ids and fails(ids):
-            for _ in shrink(ids, fails):
-                pass
+        ids = [departure.id for departure in recording.departures]
+        found = self.found
+        try:
+            if ids and fails(ids):
+                for _ in shrink(ids, fails):
+                    pass
+        finally:
+            if found.failed is None or len(best.departures) < len(found.departures):
+                found.failed, found.number, found.recording = str(limited), number, best
+        return True
+
+    def _explain(self) -> None:
+        """Repeat the order that was found, and tell what the functions did in it."""
+        found, observer = self.found, self.observer
+        observer.logs = True
+        self._attempt(0)
+        usual = observer.log
+        self._attempt(found.failed)
+        failed, observer.logs = observer.log, False
+        found.race = race(usual, failed, found.recording)
+        found.stopped = [text for text in failed.stopped if text not in usual.stopped]
+        for _ in range(AGAIN):
+            self.progress.show(f"again in order {found.number}", found.number)
+            found.again += not self._attempt(found.failed)[1]
+            found.repeated += 1
 
 
 def _progress(orders: int) -> Progress:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import linecache
-import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
-from sim.evidence import CallbackError, Departure, Recording
+from sim.evidence import Departure, Recording
 from sim.order import ANY, NETWORK
+from sim.ros.exploring.consequences import consequences
 
 NO_PROMISE = "Nothing guarantees the usual order, although the current rclpy always uses it."
-_FRAME = re.compile(r'^  File "(?P<file>.+)", line (?P<line>\d+)', re.M)
 
 
 @dataclass
@@ -20,7 +19,9 @@ class Explored:
     failed: the order in which it does not hold, for `run(..., order=found.failed)`; None if it held in all.
     number: that order's number before it was shrunk. tried: the orders that were tried. usual: the run in
     the usual order. recording: the run in the failed order; None if there is none. interrupted: the user
-    stopped the search.
+    stopped the search. race: the two accesses whose order makes the difference, in a sentence. stopped: where
+    threads wait for ever. again: in how many of `repeated` further runs in the failed order it did not hold.
+    unseen: code in which no thread was preempted, and why.
     """
 
     usual: Recording
@@ -30,6 +31,11 @@ class Explored:
     recording: Recording | None = None
     interrupted: bool = False
     level: str = NETWORK
+    race: str = ""
+    stopped: list[str] = field(default_factory=list)
+    again: int = 0
+    repeated: int = 0
+    unseen: dict[str, str] = field(default_factory=dict)
 
     @property
     def departures(self) -> list[Departure]:
@@ -41,13 +47,28 @@ class Explored:
         """What was found, in a sentence or two."""
         if self.recording is None:
             stopped = " The search was interrupted." if self.interrupted else ""
-            return f"It holds in the usual order and in {self.tried} others.{stopped}"
-        failure = failure_of(self.recording)
+            return f"It holds in the usual order and in {self.tried} others.{stopped}{self._unseen}"
         if not self.departures:
+            failure = consequences(Recording(), self.recording)
             return f"It does not hold in the usual order. {failure}".rstrip()
-        where = f"In order {self.number}, {list_departures(self.departures)}. {failure}".rstrip()
-        promise = f" {NO_PROMISE}" if self.level == ANY else ""
-        return f"{where}{promise} Run it again with run(..., order={self.failed!r})."
+        return " ".join(filter(None, self._sentences())) + self._unseen
+
+    def _sentences(self) -> Iterator[str]:
+        yield f"In order {self.number}, {list_departures(self.departures)}."
+        yield self.race
+        yield consequences(self.usual, self.recording, self.stopped)
+        yield NO_PROMISE if self.level == ANY else ""
+        yield f"It fails again in {self.again} of {self.repeated} runs." if self.repeated else ""
+        yield f"Run it again with run(..., order={self.failed!r})."
+
+    @property
+    def _unseen(self) -> str:
+        """A sentence about the code in which no thread was preempted."""
+        reasons: dict[str, list[str]] = {}
+        for name, reason in sorted(self.unseen.items()):
+            reasons.setdefault(reason, []).append(f"`{name}`")
+        parts = [f"{', '.join(names)} ({reason})" for reason, names in reasons.items()]
+        return f" No thread was preempted in {' and '.join(parts)}." if parts else ""
 
     def __repr__(self) -> str:
         return self.explanation
@@ -62,23 +83,3 @@ def list_departures(departures: list[Departure]) -> str:
     """What came in another order, for the middle of a sentence."""
     parts = [f"{departure.text} at {departure.stamp:.4g} s" for departure in departures]
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
-
-
-def failure_of(recording: Recording) -> str:
-    """What the first error was and where; empty without one."""
-    if not recording.errors:
-        return ""
-    error = recording.errors[0]
-    line = failing_line(error)
-    place = f", at {line}" if line else ""
-    return f"Then `{error.callback}` fails at {error.stamp:.4g} s{place}: {error.type}{error.says}."
-
-
-def failing_line(error: CallbackError) -> str:
-    """The student's line in which an error was raised, such as "line 7: `x = self.last.data`"."""
-    frames = list(_FRAME.finditer(error.traceback))
-    if not frames:
-        return ""
-    number = int(frames[-1]["line"])
-    source = linecache.getline(frames[-1]["file"], number).strip()
-    return f"line {number}: `{source}`" if source else f"line {number}"

@@ -28,6 +28,7 @@ class Choices:
         self.order = order
         self._departures, self._now = departures, now
         self._preemptions = 0
+        self._longest = nanoseconds(2 * order.spread)  # that a thread is preempted
         self._listed: set[tuple[Nanoseconds, str]] = set()
         self._earliest: dict[tuple[Any, ...], float] = {}
 
@@ -80,23 +81,26 @@ class Choices:
         places = {fiber: index for index, fiber in enumerate(fiber for fiber in arranged if fiber in ranks)}
         for index, fiber in enumerate(ready):
             passed = [
-                _label(other)
+                label(other)
                 for place, other in enumerate(ready)
                 if (places[other] - places[fiber]) * (place - index) < 0
             ]
             if ranks[fiber] != USUAL and passed:
                 where = "before" if places[fiber] < index else "after"
-                text = f"{_label(fiber)} runs {where} {' and '.join(passed)}"
+                text = f"{label(fiber)} runs {where} {' and '.join(passed)}"
                 self.list(draws[fiber], fiber.process.key, "turn", text)
         return arranged
 
     # -- threads -----------------------------------------------------------------------------------
 
-    def preemption(self, fiber: Fiber, function: str, line: int) -> Preempted | None:
+    def preemption(
+        self, fiber: Fiber, function: str, line: int, others_due: Callable[[Nanoseconds], bool]
+    ) -> Preempted | None:
         """How a thread is preempted before it executes a line; None where it isn't.
 
         An order picks some lines, and for each the time of its execution from which on it may happen there:
-        so it reaches what threads do late, too, with few preemptions.
+        so it reaches what threads do late, too, with few preemptions. others_due: whether anything else would
+        happen within a time; otherwise a preemption changes nothing.
         """
         program = fiber.process
         program.visits[function, line] += 1
@@ -105,24 +109,26 @@ class Choices:
             begin = self._earliest_visit(program.key, function, line)
             if visit < begin or self._preemptions >= MOST_PREEMPTIONS:
                 return None
-        draw = self.order.draw("thread", program.key, function, line, visit)
-        if not self.order.departs(draw, 0.5):
+        draw, longest = self.order.draw("thread", program.key, function, line, visit), self._longest
+        if not self.order.departs(draw, 0.5) or not (self.order.only or others_due(longest)):
             return None
         self._preemptions += 1
-        text = f"{_label(fiber)} is preempted before line {line} of {function}"
+        thread, name = label(fiber), function.rsplit("<locals>.", 1)[-1]
+        where = "" if name in thread else f" of {name}"
+        text = f"{thread} is preempted before line {line}{where}"
         self.list(draw, program.key, "thread", text)
-        longest = nanoseconds(2 * self.order.spread)
         return Preempted(int(max(0.0, 2 * draw.value - 1) * longest), draw.value < 0.25 and longest)
 
     def _earliest_visit(self, *line: Any) -> float:
         """From which execution of a line on its thread may be preempted there; infinite where it never is.
 
-        Drawn once for each line: a loop passes here a million times, and that counts as its computing.
+        In half of the cases that is the first. Drawn once for each line: a loop passes here a million times,
+        and that counts as its computing.
         """
         if line not in self._earliest:
             draw = self.order.draw("line", *line)
             picked = draw.chance < PICKED_LINES * self.order.intensity
-            self._earliest[line] = LATE_VISITS**draw.value if picked else math.inf
+            self._earliest[line] = LATE_VISITS ** max(0.0, 2 * draw.value - 1) if picked else math.inf
         return self._earliest[line]
 
 
@@ -137,6 +143,9 @@ class Preempted(NamedTuple):
     patience: Nanoseconds
 
 
-def _label(fiber: Fiber) -> str:
-    main = fiber.thread is None
-    return fiber.process.name if main else f"{fiber.name} of {fiber.process.name}"
+def label(fiber: Fiber) -> str:
+    """How a fiber is called: its program; or its thread, or parallel callback, and its program."""
+    program = fiber.process.name
+    if fiber.thread is None:
+        return program
+    return f"{fiber.callbacks[0].name if fiber.callbacks else fiber.name} of {program}"

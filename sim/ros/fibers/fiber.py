@@ -99,6 +99,10 @@ class Fiber:
             return True
         return self.ready is not None and bool(self.ready())
 
+    def next_due(self) -> Nanoseconds:
+        """When it goes on at the latest; NEVER if only something else can let it."""
+        return min(NEVER if self.wake_at is None else self.wake_at, self.timer_due if self.waiter else NEVER)
+
     def only_polls(self) -> bool:
         """Whether it spins an executor, and its turn is only a look for work there."""
         in_time = self.wake_at is None or self._scheduler.now < self.wake_at

@@ -30,6 +30,7 @@ class Scheduler:
         self.now: Nanoseconds = 0
         self.waiters = Waiters()
         self.choices: Choices | None = None  # None in the usual order
+        self.preemption: Any = None  # None where no thread is preempted
         self.switches = 0
         self.livelock: str | None = None
         self.current: Fiber | None = None
@@ -45,6 +46,8 @@ class Scheduler:
         fiber.number = process.fibers_started
         process.fibers_started += 1
         process.fibers_alive += 1
+        if self.preemption is not None and process.fibers_alive > 1 and not process.from_course:
+            self.preemption.thread_started()
         index = self.fibers.index(before) if before in self.fibers else len(self.fibers)
         self.fibers.insert(index, fiber)
         return fiber
@@ -78,11 +81,14 @@ class Scheduler:
             error, fiber.thrown = fiber.thrown, None
             raise error
 
-    def preemption_point(self, function: str, line: int) -> None:
-        """The current fiber is about to execute this line of a student's function: it may have to wait."""
-        preempted = self.choices.preemption(self.current, function, line)
+    def preemption_point(self, function: str, line: int) -> bool:
+        """The current fiber is about to execute this line of a student's function: it may have to wait.
+
+        Returns whether it had to.
+        """
+        preempted = self.choices.preemption(self.current, function, line, self.others_due)
         if preempted is None:
-            return
+            return False
         program, begin = self.current.process, self.now
         steps = program.steps + 1  # others have taken one
 
@@ -90,6 +96,13 @@ class Scheduler:
             return self.now >= begin + preempted.wait and (not preempted.patience or program.steps >= steps)
 
         self.wait("its turn", ready=is_over, until=begin + max(preempted.wait, preempted.patience))
+        return True
+
+    def others_due(self, within: Nanoseconds) -> bool:
+        """Whether anything but the current fiber goes on within this time."""
+        moment = self.now + within
+        others = (fiber for fiber in self.fibers if fiber is not self.current and not fiber.done)
+        return any(fiber.runnable() or fiber.next_due() <= moment for fiber in others)
 
     def wake_all(self) -> None:
         """Something happened that may concern any executor: let each that is waiting look for work."""

@@ -19,6 +19,11 @@ def is_library(filename: str) -> bool:
     return filename.startswith(_LIBRARIES)
 
 
+def is_of_course(filename: str) -> bool:
+    """Whether a source file is part of this package or of the ROS packages that it includes."""
+    return filename.startswith(_OF_COURSE)
+
+
 def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
     """The frames of an exception that are the student's own."""
     own = []
