@@ -5,7 +5,7 @@ from dataclasses import replace
 from geometry_msgs.msg import Twist
 from lifecycle_msgs.srv import ChangeState
 from rclpy.node import Node
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, Float64
 from std_srvs.srv import Trigger
 
 from sim import World, since_start
@@ -50,6 +50,19 @@ class Stubborn(Driver):
     def tick(self, now):
         """Drive."""
         super().tick(0.0)
+
+
+class Sensors(Timed):
+    """Publishes a speed and a distance at the same time."""
+
+    def __init__(self):
+        super().__init__("sensors")
+        self.both = [self.create_publisher(Float64, topic, 10) for topic in ("/speed", "/distance")]
+
+    def tick(self, now):
+        """Publish both."""
+        for publisher in self.both:
+            publisher.publish(Float64(data=1.0))
 
 
 class Button(Timed):

@@ -118,9 +118,11 @@ def test_what_was_found_is_explained():
     found = explore(PairsByArrival, Sensor, holds=no_errors, seconds=2)
     line = "`assert self.last.data == message.data`"
     pattern = (
-        r"In order \d+, .+ at [\d.]+ s\. Then `PairsByArrival\.on_b` fails at [\d.]+ s, at line \d+: "
+        r"In order \d+, .+ at [\d.]+ s\. `PairsByArrival\.on_b` reads PairsByArrival\.last = .+ \(line \d+\) "
+        r"before `PairsByArrival\.on_a` writes PairsByArrival\.last = .+ \(line \d+\); in the usual order "
+        r"it reads .+ there\. Then `PairsByArrival\.on_b` fails at [\d.]+ s, at line \d+: "
         + re.escape(line)
-        + r": .+\. Run it again with run\(\.\.\., order='.+'\)\."
+        + r": .+\. It fails again in 10 of 10 runs\. Run it again with run\(\.\.\., order='.+'\)\."
     )
     assert re.fullmatch(pattern, found.explanation)
     assert repr(found) == found.explanation

@@ -26,7 +26,7 @@ LINES = 10  # of code, a minute
 # Minutes for each of these.
 CELL = 0.4  # to run a cell, and to look at its output
 TRY = 5.0  # "Try it yourself"
-QUESTION = 1.0  # in "Check yourself", or a prediction before a run with what came out
+QUESTION = 1.0  # in "Check yourself", a prediction before a run with what came out, or what `explore` found
 PLAY = 3.0  # a live robot
 SLIDER = 2.0
 BUILD = 0.5  # `colcon build`
@@ -96,8 +96,8 @@ def count(path: Path) -> Lesson:
         lines=sum(map(_read, "\n".join([code, *printed]).splitlines())),
         cells=len(sources),
         tries=text.count("**Try it yourself"),
-        questions=text.count("<details>") + len(re.findall(r"\bpredict\(", everything)),
-        plays=len(re.findall(r"\b(?:play|explore)\(", code)),
+        questions=text.count("<details>") + len(re.findall(r"\b(?:predict|explore)\(", everything)),
+        plays=len(re.findall(r"\bplay\(", code)),
         sliders=len(re.findall(r"^@?interact\(", code, re.M)),
         builds=code.count("colcon build"),
         terminals=sum(1 for block in FENCE.findall(text) if IN_TERMINAL.search(block)),

@@ -65,7 +65,7 @@ class AccessLog:
     def __init__(self) -> None:
         self.accesses: list[Logged] = []
         self.gaps: list[Gap] = []
-        self.stopped: list[str] = []  # threads that waited for ever at the end, and where
+        self.stopped: list[str] = []  # which threads waited at the end, and where
         self._objects: dict[int, tuple[int, Any]] = {}
 
     def add(self, run: Scheduler, frame: FrameType, line: int) -> None:
@@ -98,13 +98,15 @@ class AccessLog:
                 yield Logged(*where, kind, owned, number, name, text)
 
     def finish(self, run: Scheduler) -> None:
-        """Note which threads wait for ever; the run is about to end."""
+        """Note which threads wait without a time limit; a program has failed, or the run is about to end."""
+        if self.stopped:
+            return
         for fiber in run.fibers:
             forever = fiber.started and not fiber.done and fiber.wake_at is None and fiber.waiter is None
             where = student_line(fiber.greenlet.gr_frame) if forever else ""
             if where and not fiber.process.from_course:
                 line, _, source = where.removeprefix(", at ").partition(": ")
-                self.stopped.append(f"{label(fiber)} never gets past {line}: `{source}`")
+                self.stopped.append(f"{label(fiber)} still waits at {line}: `{source}`")
 
 
 def _thread(fiber: Fiber) -> tuple[str, int]:

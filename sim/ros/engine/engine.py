@@ -214,6 +214,8 @@ class Engine(Scheduler):
         if self.guard.hang is not None and self.recorder.open:
             self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
         elif error is not None:
+            if self.preemption is not None and self.preemption.log is not None:
+                self.preemption.log.finish(self)
             self.current = fiber  # for the names of its program
             if isinstance(error, SystemExit) and fiber is program.main:
                 self.recorder.program_exited(error, fiber.name)

@@ -21,7 +21,7 @@ def consequences(usual: Recording, failed: Recording, stopped: Sequence[str] = (
     """What goes another way than in the usual order, in sentences.
 
     stopped: threads that waited for ever, such as
-        "thread A.work of A never gets past line 7: `lock.acquire()`".
+        "thread A.work of A still waits at line 7: `lock.acquire()`".
     """
     known = {(error.callback, error.type, error.text) for error in usual.errors}
     errors = (error for error in failed.errors if (error.callback, error.type, error.text) not in known)

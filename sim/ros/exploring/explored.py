@@ -19,9 +19,9 @@ class Explored:
     failed: the order in which it does not hold, for `run(..., order=found.failed)`; None if it held in all.
     number: that order's number before it was shrunk. tried: the orders that were tried. usual: the run in
     the usual order. recording: the run in the failed order; None if there is none. interrupted: the user
-    stopped the search. race: the two accesses whose order makes the difference, in a sentence. stopped: where
-    threads wait for ever. again: in how many of `repeated` further runs in the failed order it did not hold.
-    unseen: code in which no thread was preempted, and why.
+    stopped the search. race: the two accesses whose order makes the difference, in a sentence. stopped: which
+    threads still wait at the end, and where. again: in how many of `repeated` further runs in that order it
+    did not hold. unseen: code in which no thread was preempted, and why.
     """
 
     usual: Recording
