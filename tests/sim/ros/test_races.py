@@ -26,8 +26,8 @@ from tests.students.races import (
 # What `explore` says about each bug.
 STORIES = {
     answer_before_entry: (
-        "`Asks.on_answer` calls Asks.expected.pop() (line 40) before `Asks.ask` writes "
-        "Asks.expected = a dict of 1 (line 36). Then thread Asks.work of Asks still waits at line "
+        "`Asks.on_answer` calls Asks.expected.pop() (line 39) before `Asks.ask` writes "
+        "Asks.expected = a dict of 1 (line 35). Then thread Asks.work of Asks still waits at line "
         "29: `self.ask(number).wait()`."
     ),
     both_remove: ("and then `Jobs.clean` calls Jobs.jobs.remove() (line 26). Then `Jobs.clean` fails at"),
@@ -35,8 +35,8 @@ STORIES = {
         "`Result.when_set` reads Result.value = None (line 23) before `Result.set` writes Result.value"
     ),
     cancel_before_handle: (
-        "`Bridge.on_stop` reads Bridge.goal = None (line 34) before `Bridge.on_answer` writes "
-        "Bridge.goal = a ClientGoalHandle (line 31); in the usual order it reads a ClientGoalHandle"
+        "`Bridge.on_stop` reads Bridge.goal = None (line 32) before `Bridge.on_answer` writes "
+        "Bridge.goal = a ClientGoalHandle (line 29); in the usual order it reads a ClientGoalHandle"
         " there. Then the goal of /fibonacci succeeds at 1.505 s; in the usual order it is canceled"
         " at 1.05 s."
     ),
@@ -116,7 +116,7 @@ def test_its_right_twin_is_not_reported_in_500_orders(wrong, right):
 
 def test_threads_that_wait_for_each_other_are_named():
     found = explore(*inside.PROGRAMS["two locks"][0], holds=no_errors, level="host", seconds=2)
-    waits = "thread <lambda> of main still waits at line 87: `with second:`"
+    waits = "thread <lambda> of main still waits at line 88: `with second:`"
     assert f"Then {waits}. Then {waits}. Then `look` fails" in found.explanation
 
 
