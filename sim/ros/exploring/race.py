@@ -67,8 +67,10 @@ def _does(access: Logged, use: Logged) -> str:
 
 def _read_too_early(usual: AccessLog, other: AccessLog, failed: Recording) -> str:
     """Describe a read that has another value than in the usual order, and the write that comes after it."""
-    values = {key: read.value for key, _, read in _reads(usual)}
-    different = [item for item in _reads(other) if values.get(item[0], item[2].value) != item[2].value]
+    usually = {key: (place, read) for key, place, read in _reads(usual)}
+    different = [
+        item for item in _reads(other) if item[0] in usually and usually[item[0]][1].value != item[2].value
+    ]
     if not different:
         return ""
     failing = {name for error in failed.errors for _, _, name in frames_of(error)}
@@ -76,10 +78,13 @@ def _read_too_early(usual: AccessLog, other: AccessLog, failed: Recording) -> st
     late = [item for item in different if item[2].stamp >= begin] or different
     at_fault = (item for item in reversed(late) if item[2].function.rpartition(".")[2] in failing)
     key, index, read = next(at_fault, late[0])
-    writes = (each for each in other.accesses[index + 1 :] if each.what == read.what and each.kind == WRITE)
+    place, there = usually[key]
+    earlier = [each for each in reversed(usual.accesses[:place]) if each.what == there.what]
+    later = [each for each in other.accesses[index + 1 :] if each.what == read.what]
+    writes = (each for each in [*later, *earlier] if each.kind == WRITE and each.function != read.function)
     write = next(writes, None)
     before = "" if write is None else f" before `{write.function}` {_did(write)}"
-    return f"`{read.function}` {_did(read)}{before}; in the usual order it reads {values[key]} there."
+    return f"`{read.function}` {_did(read)}{before}; in the usual order it reads {there.value} there."
 
 
 def _reads(log: AccessLog) -> Iterator[tuple[tuple[object, ...], int, Logged]]:

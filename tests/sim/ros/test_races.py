@@ -54,7 +54,8 @@ STORIES = {
         " Filter.offset = 3 (line 15)."
     ),
     waits_for_itself: (
-        "`Drives.tick` reads Drives.mode = None (line 44); in the usual order it reads 'slow' there."
+        "`Drives.tick` reads Drives.mode = None (line 44) before `Drives.on_mode` writes Drives.mode = "
+        "'slow' (line 41); in the usual order it reads 'slow' there."
     ),
     watchdog_late: ("`Arm.watch` reads Arm.fed = "),
 }
