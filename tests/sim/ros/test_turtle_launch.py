@@ -123,7 +123,9 @@ def test_the_picture_shows_the_first_pond_and_the_other_has_its_own(mimicked):
     last = mimicked.messages("/turtlesim1/turtle1/pose")[-1].message
     assert mimicked.path[-1][1:3] == pytest.approx((last.x, last.y), abs=0.1)
     assert mimicked.drawing.ground == (69, 86, 255)
-    colors = [mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)]
+    colors = [
+        mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)
+    ]
     assert colors == [69, 200]
     texts = [line.text for line in mimicked.logs if line.node == "launch"]
     assert texts == [TAKEN, ONE_MORE]

@@ -221,3 +221,4 @@ def test_doctor_hello_counts_the_greetings_of_other_hosts():
         "                elsewhere            1         \n"
         f"{'-' * 60}"
     )
+

@@ -66,7 +66,7 @@ def spun(node):
 
 
 def holds(run):
-    """No callback waits for ever."""
+    """No callback waits forever."""
     return not run.errors and run.ended.reason == "time"
 
 
