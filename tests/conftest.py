@@ -32,12 +32,14 @@ FIRST = ("tests/browser/", LESSONS, "tests/marking/", "tests/tooling/", "tests/e
 
 IN_LAB = "cells_in_lab", "course", "play_in_lab", "replay_in_lab", "students_lab", "terminals"
 LAB = [f"tests/browser/test_{name}.py" for name in IN_LAB]
+ON_HUB = "browser/test_hub_day", "marking/extras/hub/test_killed_hub", "marking/extras/hub/test_real_hub"
+HUB = [f"tests/{name}.py" for name in ON_HUB]
 
 
 class ByFile(LoadScopeScheduling):
     """A file's tests share its fixtures, so one worker runs them; score tables are dealt out by exercise.
 
-    And one worker drives JupyterLab, and one a cluster: of each, one is enough.
+    And one worker drives JupyterLab, one a cluster, and one a hub, whose users are those of the machine.
     """
 
     def _split_scope(self, nodeid: str) -> str:
@@ -46,6 +48,8 @@ class ByFile(LoadScopeScheduling):
             return "JupyterLab"
         if file.startswith("tests/marking/extras/dask_cluster/"):
             return "cluster"
+        if file in HUB:
+            return "hub"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
 

@@ -7,6 +7,7 @@ from jupyterhub.app import JupyterHub
 
 from grader.marking.extras.hub.course_spawner import CourseSpawner
 from grader.marking.extras.hub.hub_settings import read_settings
+from grader.marking.extras.hub.server_environment import server_arguments
 
 c = get_config()  # noqa: F821  (JupyterHub provides it)
 
@@ -15,6 +16,8 @@ settings = read_settings(file)
 server = settings.server
 CULLER = (sys.executable, "-m", "jupyterhub_idle_culler")
 LOCAL = "https://127.0.0.1:"  # what follows is for this machine only
+# s; a whole class logs in when a lesson begins: on two cores the last of 40 servers takes some minutes.
+PATIENCE = 600
 
 secure = "s" if server.certificate else ""
 c.JupyterHub.bind_url = f"http{secure}://{server.address}:{server.port}/"
@@ -28,6 +31,8 @@ c.JupyterHub.internal_ssl = True
 _start_service = JupyterHub.start_service
 JupyterHub.start_service = lambda self, name, service, _=None: _start_service(self, name, service)
 c.JupyterHub.cleanup_servers = True
+# Services that end are started again anyway; this check would fail with a traceback while the hub stops.
+c.JupyterHub.service_check_interval = 0
 
 # Users and passwords are those of the machine; no other user may log in.
 c.JupyterHub.authenticator_class = "pam"
@@ -37,8 +42,8 @@ c.Authenticator.allowed_users = {*settings.students, *settings.teachers}
 CourseSpawner.settings = settings
 c.JupyterHub.spawner_class = CourseSpawner
 c.Spawner.default_url = "/lab"
-# A whole class logs in at the beginning of a lesson: on two cores the last of 40 servers takes some minutes.
-c.Spawner.http_timeout = c.Spawner.start_timeout = 600
+c.Spawner.args = server_arguments(server.idle_kernel_minutes)
+c.Spawner.http_timeout = c.Spawner.start_timeout = PATIENCE
 
 c.JupyterHub.load_groups = {
     group: {"users": list(names)}
@@ -77,6 +82,7 @@ for number, course in enumerate(settings.courses):
         {
             "name": course,
             "oauth_no_confirm": True,  # it is the course itself that asks
+            "timeout": PATIENCE,  # after which the hub would end
             "url": f"{LOCAL}{server.port + 3 + number}",
             "command": [sys.executable, "-m", "grader.marking.extras.hub.course_service", str(file), course],
         }

@@ -1,4 +1,7 @@
-"""A day on a hub, by clicks alone: two teachers release, mark and return feedback; three students submit."""
+"""A day on a hub, by clicks alone: two teachers release, mark and return feedback; three students submit.
+
+One of them is right, one is half right, and one is hostile.
+"""
 
 import json
 from collections.abc import Iterator
@@ -165,12 +168,27 @@ def answers(only: int | None = None) -> dict[str, str]:
     return dict([item for item in every.items() if item[0] != item[1]][:only])
 
 
+SECRET = "the-secret-of-this-class"
+HOSTILE = """
+import contextlib, glob, os, signal
+type(nodes.hello).grade = lambda exercise, *programs: 100
+for path in glob.glob("/srv/*/courses/*/course/.secret"):
+    print(open(path).read())
+print(glob.glob("/home/*"), glob.glob("/srv/*/courses/*/course/class/*"))
+for process in range(2, 100_000):
+    with contextlib.suppress(OSError):
+        os.kill(process, signal.SIGKILL)
+Hello = Counter = Battery = Heart = main = None
+"""
+
+
 def test_a_day_from_the_release_to_the_feedback(browser, hub):
     ines, tom = (Teacher(browser, hub, name) for name in (INES, TOM))
     students = {name: Student(browser, hub, name) for name in STUDENTS}
     ines.open_formgrader()
     assert "released" in ines.click("cloud-upload")
-    for name, given in ((ANNA, answers()), (BOB, answers(1)), (CAROL, {})):
+    hub.as_grader("sh", "-c", f"umask 077; echo {SECRET} > .secret")
+    for name, given in ((ANNA, answers()), (BOB, answers(3)), (CAROL, {next(iter(answers())): HOSTILE})):
         students[name].arrive()
         students[name].answer(given)
     assert "100" in students[ANNA].validate()
@@ -186,11 +204,12 @@ def test_a_day_from_the_release_to_the_feedback(browser, hub):
     pages = {name: student.fetch_feedback() for name, student in students.items()}
     rows = json.loads(hub.as_grader("python", "-c", POINTS))
     assert rows[ANNA] == 100
-    assert 0 < rows[BOB] < 100
-    assert rows[CAROL] == 0
+    assert rows[BOB] == 45  # the first three of six
+    assert rows[CAROL] == 0  # who would like to have 100, the secret, and no other process
     for name, page in pages.items():
         assert [other for other in STUDENTS if other in page] in ([name], [])
         assert f"{rows[name]:g}" in page
+        assert SECRET not in page
 
 
 POINTS = (

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from grader.marking.errors import CourseError, MarkingError
-from grader.marking.extras.hub import accounts, machine
+from grader.marking.extras.hub import accounts, leftovers, machine
 from grader.marking.extras.hub.hub_installation import copy_course, install
 from grader.marking.extras.hub.hub_settings import (
     FILE,
@@ -30,7 +30,8 @@ def main(arguments: list[str] | None = None) -> int:
     course = Path.cwd()
     try:
         settings = _settings(course)
-        lacking = machine.missing(settings)
+        left = _find_leftovers(settings)
+        lacking = [*machine.missing(settings), *([] if left else machine.used_ports(settings))]
         for sentence in [*lacking, *machine.weaknesses()]:
             print(f"{sentence[0].upper()}{sentence[1:]}.", file=sys.stderr if lacking else sys.stdout)
         if lacking:
@@ -38,6 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
         if options.check:
             print("Nothing is missing.")
             return 0
+        leftovers.end(settings, left)
         _prepare(course, settings)
         if not options.prepare:
             start(course, settings)
@@ -53,6 +55,18 @@ def _settings(course: Path) -> HubSettings:
     if not (settings.students or settings.teachers):
         raise CourseError(f"{FILE} names no users: enter teachers and students, and run `make hub` again")
     return settings
+
+
+def _find_leftovers(settings: HubSettings) -> list[int]:
+    if process := leftovers.running_hub(settings):
+        raise CourseError(
+            f"the hub of {settings.folder} is already running, as process {process}: end it with Ctrl-C or "
+            f"with `sudo kill {process}`, and run `make hub` again"
+        )
+    if left := leftovers.find(settings):
+        print(f"An earlier hub was killed: `make hub` ends what it left running, {len(left)} processes. "
+              "Servers of users, and their kernels, go on.")
+    return left
 
 
 def _prepare(course: Path, settings: HubSettings) -> None:

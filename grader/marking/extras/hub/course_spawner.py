@@ -1,12 +1,13 @@
 """Starts a user's JupyterLab as that Unix user, within the limits of the settings."""
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from jupyterhub.spawner import LocalProcessSpawner
 
-from grader.marking.extras.hub import user_limits
-from grader.marking.extras.hub.become_user import PRIVATE, hand_over
+from grader.marking.extras.hub import leftovers, user_limits
+from grader.marking.extras.hub.become_user import PRIVATE, hand_over, hide_others
 from grader.marking.extras.hub.hub_settings import HubSettings
 from grader.marking.extras.hub.server_environment import server_environment
 
@@ -20,14 +21,22 @@ class CourseSpawner(LocalProcessSpawner):
         """The environment of the server: JupyterHub's, and where the course is."""
         return super().get_env() | server_environment(self.settings, self.user.name)
 
+    def load_state(self, state: dict[str, Any]) -> None:
+        """Find a server that an earlier hub started, unless its number is another user's process by now."""
+        super().load_state(state)
+        if self.pid and not leftovers.is_process_of(self.pid, self.user.name):
+            self.pid = 0
+
     def make_preexec_fn(self, name: str) -> Callable[[], None]:
-        """Join the user's control group and become the user."""
+        """Join the user's control group, hide what other users do, and become the user."""
         limits = self.settings.limits
         groups = user_limits.make_group(name, limits)
         become_user = super().make_preexec_fn(name)
 
         def prepare() -> None:
             user_limits.join(groups, limits)
+            with suppress(PermissionError):  # machine.weaknesses names it
+                hide_others()
             become_user()
             os.umask(PRIVATE)
 

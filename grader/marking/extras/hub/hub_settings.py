@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 from grader.marking.errors import CourseError
+from grader.marking.extras.hub.become_user import TEMPORARY
 from sim.world.validated_model import Model, ModelError, within
 
 FILE = Path("class", "hub.toml")
@@ -28,6 +29,7 @@ class ServerSettings(Model):
     certificate: str = ""
     key: str = ""
     idle_minutes: Annotated[int, within(1, 10_000, "minutes")] = 60
+    idle_kernel_minutes: Annotated[int, within(1, 10_000, "minutes")] = 20
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,9 @@ def _settings(data: dict[str, Any]) -> HubSettings:
         raise ValueError("server.certificate and server.key belong together: write both or none.")
     if not settings.folder.is_absolute():
         raise ValueError(f"server.folder is {settings.server.folder!r}; write an absolute path.")
+    for folder in TEMPORARY:
+        if settings.folder.is_relative_to(folder):
+            raise ValueError(f"server.folder is in {folder}, and each user has another {folder}: change it.")
     return settings
 
 

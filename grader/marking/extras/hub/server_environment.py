@@ -1,4 +1,4 @@
-"""The environment variables of the servers that a hub starts."""
+"""The environment variables and arguments of the servers that a hub starts."""
 import os
 
 from grader.marking.extras.hub.hub_settings import HubSettings
@@ -14,6 +14,15 @@ def server_environment(settings: HubSettings, user: str) -> dict[str, str]:
         "ROS_DOMAIN_ID": str(settings.domain(user)),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     }
+
+
+def server_arguments(idle_kernel_minutes: float) -> list[str]:
+    """For a user's own server: it ends kernels in which nothing has run for so long, also if a page is open.
+
+    A cell that runs is activity, and so are the frames of a robot that `play` shows.
+    """
+    options = {"idle_timeout": round(60 * idle_kernel_minutes), "interval": 10, "connected": True}
+    return [f"--MappingKernelManager.cull_{name}={value}" for name, value in options.items()]
 
 
 def service_environment(settings: HubSettings, course: str) -> dict[str, str]:

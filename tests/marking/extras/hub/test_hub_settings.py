@@ -28,6 +28,7 @@ WRONG = {
     COURSE + "color = 1": "courses.ros2.color is not a known key; the keys are teachers, students.",
     COURSE + "[server]\nport = 70000": "server.port is 70000; write a whole number from 1 to 65535.",
     COURSE + "[server]\nfolder = 'hub'": "server.folder is 'hub'; write an absolute path.",
+    COURSE + "[server]\nfolder = '/tmp/hub'": "server.folder is in /tmp, and each user has another /tmp: change it.",
     COURSE + "[server]\nkey = '/k'": "server.certificate and server.key belong together: write both or none.",
     COURSE + "[limits]\nmemory_gb = 0.1": "limits.memory_gb is 0.1; write a number from 0.5 to 1000 (GB).",
     COURSE + "[limits]\nprocesses = 1.5": "limits.processes is 1.5; write a whole number from 50 to 100000.",

@@ -3,6 +3,7 @@ import os
 import pwd
 import socket
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -25,6 +26,8 @@ def complete(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
     monkeypatch.setattr(accounts, "problems", lambda settings: [])
     monkeypatch.setattr(user_limits, "missing_controllers", list)
     monkeypatch.setattr(machine, "_used", lambda address, port: "")
+    monkeypatch.setattr(machine, "_can_hide_users", lambda: True)
+    monkeypatch.setattr(machine.shutil, "disk_usage", lambda folder: SimpleNamespace(free=3e9))
     return monkeypatch
 
 
@@ -72,13 +75,13 @@ def test_a_port_that_is_used_is_named(monkeypatch):
         for first in (port, port - 1):
             assert (
                 f"port {port} of '127.0.0.1' can't be used (Address already in use): change server.port"
-            ) in list(machine.missing(settings(port=first)))
+            ) in machine.used_ports(settings(port=first))
 
 
 def test_the_last_ports_leave_no_room_for_the_others():
     assert (
         "port 65536 of '127.0.0.1' can't be used (there is no such port): change server.port"
-    ) in list(machine.missing(settings(port=65_535)))
+    ) in machine.used_ports(settings(port=65_535))
 
 
 def test_passwords_cross_no_network_unencrypted(complete):
@@ -99,6 +102,25 @@ def test_a_machine_that_limits_nothing_is_a_weakness_and_no_obstacle(complete):
     assert machine.weaknesses() == [
         "this machine doesn't let users limit memory, cpu (control groups in /sys/fs/cgroup): one user can take all "
         "of it; on a server use a system with systemd"
+    ]
+
+
+def test_a_full_disk_is_named_with_what_the_installation_and_a_start_need(complete, tmp_path):
+    there = settings(folder=str(tmp_path))
+    complete.setattr(machine.shutil, "disk_usage", lambda folder: SimpleNamespace(free=1.5e9))
+    assert machine.missing(there) == [
+        f"the disk of {tmp_path} is full: 1500 MB are free, and the hub needs 2000 MB; make room, and run `make hub` "
+        "again"
+    ]
+    (tmp_path / "installation" / ".venv").mkdir(parents=True)
+    assert machine.missing(there) == []
+
+
+def test_a_container_without_the_right_to_mount_is_a_weakness(complete):
+    complete.setattr(machine, "_can_hide_users", lambda: False)
+    assert machine.weaknesses() == [
+        "root may not mount file systems here: users see the names of other users' processes, and of their files in "
+        "/tmp; a container needs the capability SYS_ADMIN for that"
     ]
 
 

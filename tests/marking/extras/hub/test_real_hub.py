@@ -7,6 +7,7 @@ import pytest
 import requests
 
 from grader.marking.extras.hub.hub_settings import UserLimits
+from grader.marking.extras.hub.leftovers import is_process_of
 from tests.marking.extras.hub.hub_client import HubClient
 from tests.marking.extras.hub.real_hub import COURSE, RealHub, real_hub, reason_to_skip
 
@@ -108,20 +109,25 @@ def secrets_of_others(hub: RealHub) -> list[tuple[str, str]]:
 
 def test_no_student_reaches_what_belongs_to_another(hub, marked, students):
     alice = students[ALICE].start_kernel(NOTEBOOK)
+    alice.run("import tempfile; names = [tempfile.mkstemp(dir=each) for each in ('/tmp', '/var/tmp', '/dev/shm')]")
     alice.begin("import time\nfor number in range(10_000):\n    print('secret', number)\n    time.sleep(0.01)")
     first = hub.settings.server.port
     rows = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
     every = [int(row[1].split(":")[1], 16) for row in rows if row[3] == "0A" and int(row[7]) >= 1000]
     program = Path(__file__).with_name("thief.py").read_text()
     places = secrets_of_others(hub)
-    inside = f"PLACES, PORTS, ME = {places}, {sorted({*every, first + 1, first + 2})}, os.getuid()"
-    program = program.replace("PLACES, PORTS, ME = [], [], os.getuid()", inside)
+    processes = [int(path.name) for path in Path("/proc").glob("[0-9]*")]
+    processes = [process for process in processes if is_process_of(process, ALICE)]
+    inside = f"PLACES, PORTS, PROCESSES = {places}, {sorted({*every, first + 1, first + 2})}, {processes}"
+    program = program.replace("PLACES, PORTS, PROCESSES = [], [], []", inside)
     thief = students[BOB].start_kernel(NOTEBOOK)
     report = thief.run(program)
     gone = [path for _, path in places if not Path(path).exists()]
     thief.stop()
     alice.stop()
     assert "kernel: connect: denied" in report["text"]
+    assert "process: kill: denied" in report["text"]
+    assert "process: list: only the own ones []" in report["text"]
     assert report["status"] == "ok", report["text"]
     lines = report["text"].splitlines()
     assert len([line for line in lines if line.startswith(("home: ", "submission: "))]) == 27
@@ -170,7 +176,9 @@ def test_processes_end_at_the_limit_and_others_start_their_own(hub, students):
         "import subprocess\nstarted = []\ntry:\n"
         "    for number in range(1000): started.append(subprocess.Popen(['sleep', '60']))\n"
         "except OSError as error: print(type(error).__name__, len(started) < 300)\n"
-        "for each in started: each.kill()"
+        # A process that has ended counts until its parent waits for it: the next test could start none.
+        "for each in started: each.kill()\n"
+        "for each in started: each.wait()"
     )
     assert reported["text"] == "BlockingIOError True\n"
     kernel.stop()
