@@ -1,5 +1,6 @@
 // Questions about the next run with answers to click, and what happened beside the prediction; ../prediction.py makes
-// their HTML. It needs no kernel. Whoever can save an answer listens for the event "ros2-prediction".
+// their HTML. It needs no kernel. JupyterLab's extension listens for the event
+// "ros2-prediction" and saves the answer.
 
 const STORE = "ros2-course-predictions"; // in the browser: question -> letter
 const READY = "data-ready";
