@@ -36,7 +36,9 @@ def explain_failure(recording: Recording) -> list[str]:
     fault = find_fault(recording)
     if fault is None:
         return []
-    return [BEGIN] if fault.sentence == NOT_STARTED else [fault.saw, f"Hint: {fault.hint}"]
+    if fault.sentence == NOT_STARTED:
+        return [BEGIN]
+    return [fault.saw, *([f"Hint: {fault.hint}"] if fault.hint else [])]
 
 
 def _print(text: str) -> None:

@@ -16,6 +16,8 @@ from grader.diagnosis import (
     program_end,
     radio,
     services,
+    synchronizers,
+    transforms,
     two_executors,
 )
 from grader.diagnosis.bundled import as_course_programs
@@ -43,6 +45,9 @@ DIAGNOSES = (
     services.not_offered,
     services.no_server,
     activity.never_spun,
+    synchronizers.never_met,
+    transforms.zero_stamp,
+    transforms.two_broadcasters,
     services.response_not_received,
     actions.no_goal_response,
     actions.no_ending,
@@ -84,6 +89,7 @@ FLAWS = (
     driving.rare_commands,
     driving.left_driving,
     program_end.ends_in_error,
+    names.silent_rosout,
 )
 
 

@@ -5,7 +5,16 @@ from __future__ import annotations
 import sys
 
 from grader.diagnosis.parameters import OF_EVERY_NODE
-from sim.evidence import CALLS_PUBLISH, INFRASTRUCTURE_TOPICS, SPUN, WATCHES, CallbackRun, Recording
+from sim.evidence import (
+    CALLS_PUBLISH,
+    INFRASTRUCTURE_TOPICS,
+    RATE,
+    SPUN,
+    UNFINISHED,
+    WATCHES,
+    CallbackRun,
+    Recording,
+)
 from sim.notebook.run_programs import run_programs
 
 
@@ -79,10 +88,17 @@ def never_spun(recording: Recording) -> str:
     if recording.ended.reason == "blocked":
         return ""  # what is blocked did begin
     active = {run.node for run in recording.callbacks} | {loop.node for loop in recording.busy_loops}
+    active |= {row.node for row in recording.node_facts if row.fact == UNFINISHED}
     for node in recording.graph.nodes:
         if node in active or node in recording.course_nodes:
             continue
         what = _waiting_work(recording, node)
+        if what == "a timer" and any(row.node == node and row.fact == RATE for row in recording.node_facts):
+            return (
+                f"{node} has a Rate, which is a timer of the node, but no other thread spins the node, so "
+                "rate.sleep() never returns. Use create_timer in its place, or spin first in a thread: "
+                "`threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()`."
+            )
         if what:
             return (
                 f"{node} has {what}, but none of its callbacks ever ran. "

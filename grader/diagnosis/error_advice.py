@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from grader.diagnosis.field_rules import FIELD_RULES
 from grader.diagnosis.package_rules import PACKAGE_RULES, launch_file_advice
 from grader.diagnosis.parameter_rules import PARAMETER_RULES
 from grader.diagnosis.python_rules import PYTHON_RULES
@@ -51,13 +52,14 @@ _ALL_RULES = (
     *PARAMETER_RULES,
     *SENSOR_RULES,
     *TRANSFORM_RULES,
+    *FIELD_RULES,
     *RULES,
     *PYTHON_RULES,
 )
 
 
 def advice(error: CallbackError) -> str:
-    """What to do about an error, as far as it's one of the usual ones."""
+    """What to do about an error, if it's one of the usual ones; else ""."""
     if error.type == "NameError":
         return _unknown_name(error)
     absent = explain_absent_name(error.type, error.text) or launch_file_advice(error)
@@ -69,7 +71,7 @@ def advice(error: CallbackError) -> str:
             return rule.advice.format(*found.groups())
     if error.type == "AttributeError":
         return _unknown_attribute(error)
-    return "Read the line that it names, and think about the values there at that moment; `print` shows them."
+    return ""
 
 
 def _unknown_name(error: CallbackError) -> str:

@@ -31,6 +31,20 @@ _AWAITS = (
     "the client's group. Give the client a group of its own: `callback_group=ReentrantCallbackGroup()`, with "
     "`from rclpy.callback_groups import ReentrantCallbackGroup`."
 )
+_IN_ITS_GROUP = (
+    "A callback that awaits occupies its callback group until it has returned. Give the timer or "
+    "subscription that completes the future a group of its own: `callback_group=ReentrantCallbackGroup()`, "
+    "with `from rclpy.callback_groups import ReentrantCallbackGroup`."
+)
+_NOT_COMPLETED = (
+    "A future is complete once some code has called `future.set_result(value)` on it: a callback of another "
+    "callback group, or another thread. Without one, let a timer or a subscription do the next step."
+)
+_RATE = (
+    "A Rate is a timer of the node: sleep() returns when the thread that spins the node runs its callback, "
+    "so it can't be called in a callback of that thread. Let a timer do the next step, or sleep in another "
+    "thread."
+)
 _MAIN_HANGS = (
     "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
@@ -81,6 +95,12 @@ def _from_end(ended: Ended) -> Fault:
         hint = _WAITS_OUTSIDE
     elif "and never returned. The response of " in ended.detail:  # with a line, it waits without `await`
         hint = _AWAITS
+    elif "the timer of the Rate" in ended.detail:
+        hint = _RATE
+    elif "It awaits a future that only " in ended.detail:
+        hint = _IN_ITS_GROUP
+    elif "It awaits a future that no code completes" in ended.detail:
+        hint = _NOT_COMPLETED
     elif ended.reason == "hang" and re.match(r"[a-z_]\w*\(\) at t = \S+ s computed", ended.detail):
         hint = _MAIN_HANGS
     return Fault(

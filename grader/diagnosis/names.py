@@ -6,7 +6,8 @@ import difflib
 import re
 from collections.abc import Callable, Iterable, Iterator
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Graph, Recording
+from grader.diagnosis.bundled import bundled_nodes
+from sim.evidence import INFRASTRUCTURE_TOPICS, NAMELESS, Endpoint, Graph, Recording
 from sim.evidence.connections import name_difference
 from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 
@@ -24,13 +25,28 @@ OPPOSITES = [set(pair.split()) for pair in PAIRS.split(", ")]
 
 def shared_name(recording: Recording) -> str:
     """A node of the student's with the name of one that the exercise or the world brings along."""
-    if not recording.shared:
+    shared = recording.shared - bundled_nodes(recording)  # such as turtlesim, which a launch file may start
+    if not shared:
         return ""
-    name = min(recording.shared)
+    name = min(shared)
     return (
         f"Two nodes are called {name}, yours and one that takes part in this exercise, and ROS can't tell "
         "them apart: give yours a name of its own, in super().__init__('...')."
     )
+
+
+def silent_rosout(recording: Recording) -> str:
+    """A node whose log lines are not on /rosout, because another one of its name and program is gone."""
+    for row in recording.node_facts:
+        logger = row.node.strip("/").replace("/", ".")
+        later = (line for line in recording.logs if line.node == logger and line.stamp > row.stamp)
+        if row.fact == NAMELESS and any(later):
+            return (
+                f"Two nodes of one program were called {row.node}, and one of them was destroyed at "
+                f"{row.stamp:.3g} s: ROS then takes the name off /rosout, and what the other one logs no "
+                "longer arrives there. Give each node a name of its own, in super().__init__('...')."
+            )
+    return ""
 
 
 def topic_name_typo(

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from grader.diagnosis.rules import Rule
 from sim.evidence import CallbackError, Recording
+from sim.ros.packages import packages
+from sim.ros.workspaces import sources_of
+
+BUILD_AGAIN = "If it is newer than the last build, run colcon build again."
 
 PACKAGE_RULES = (
     Rule(
@@ -76,33 +81,61 @@ def own_module(error: CallbackError, recording: Recording) -> str:
     found = re.match(r"No module named '([\w.]+)'", error.text)
     if error.type != "ModuleNotFoundError" or not found:
         return ""
-    return _unfound_module(found[1], [PurePosixPath(path) for path in sources])
+    package = found[1].partition(".")[0]
+    if not sources and package in packages():  # built and sourced
+        return _unfound_module(found[1], sources_of(package), f" {BUILD_AGAIN}")
+    return _unfound_module(found[1], sources)
 
 
-def _unfound_module(name: str, paths: list[PurePosixPath]) -> str:
-    """What to do where no module has this name, and a file of the package could be it; else ""."""
+def _unfound_module(name: str, sources: Mapping[str, bytes], if_new: str = "") -> str:
+    """What to do where no module has this name, and a file of the package could be it; else "".
+
+    if_new: what to do about a file that may be newer than the last build.
+    """
     outside = ""
-    for path in paths:
-        package, *between = path.parts[1:-1] or [""]
-        whole = ".".join([package, *between, path.stem])
+    for path in map(PurePosixPath, sources):
+        top, (package, *between) = path.parts[0], path.parts[1:-1] or [""]
         if path.suffix != ".py" or not package:
             continue
-        if name in (whole, package):
-            return (
-                f"{path.relative_to(path.parts[0])} was not installed. In setup.py, "
-                "packages=find_packages(exclude=['test']) finds each folder that has an __init__.py."
-            )
-        if name == path.stem and package == path.parts[0]:
+        whole = ".".join([package, *between, *([] if path.stem == "__init__" else [path.stem])])
+        if f"{whole}.".startswith(f"{name}.") and (package == top or name == package):
+            return _not_installed(path, sources, if_new)
+        if name == path.stem and package == top:
             return (
                 "The full name of a package's module begins with the package's name, in imports and in entry "
                 f"points: write {whole}, not {name}."
             )
-        if package != path.parts[0] and name in (path.stem, f"{path.parts[0]}.{path.stem}"):
+        if package != top and name in (path.stem, f"{top}.{path.stem}"):
             outside = (
-                f"{path.relative_to(path.parts[0])} is outside the package for Python. Move it into the "
-                f"folder {path.parts[0]}/ that has __init__.py."
+                f"{path.relative_to(top)} is outside the package for Python. Move it into the "
+                f"folder {top}/ that has __init__.py."
             )
     return outside
+
+
+def _not_installed(path: PurePosixPath, sources: Mapping[str, bytes], if_new: str) -> str:
+    """What to do about a module of a package that was left out of its build."""
+    top = path.parts[0]
+    folders = [folder for folder in path.parents if len(folder.parts) > 1]
+    bare = [folder for folder in folders if f"{folder}/__init__.py" not in sources]
+    if bare:
+        return (
+            f"{bare[-1].relative_to(top)} has no __init__.py, so its modules are not installed: add an empty "
+            "file of that name, and build again."
+        )
+    begin = f"{path.relative_to(top)} was not installed."
+    rules = b"".join(sources.get(f"{top}/{name}", b"") for name in ("setup.py", "CMakeLists.txt"))
+    if if_new and re.search(rb"find_packages\(|ament_python_install_package\(", rules):
+        return begin + if_new
+    if f"{top}/CMakeLists.txt" in sources:
+        return (
+            f"{begin} In CMakeLists.txt, ament_python_install_package(${{PROJECT_NAME}}) installs the folder "
+            f"{top}/, after find_package(ament_cmake_python REQUIRED)."
+        )
+    return (
+        f"{begin} In setup.py, packages=find_packages(exclude=['test']) finds each folder that has an "
+        "__init__.py."
+    )
 
 
 def absent_launch_file(error: CallbackError) -> str:

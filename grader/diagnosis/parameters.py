@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 
 from grader.diagnosis.ros_situations import empty_list_advice
+from grader.diagnosis.student_nodes import node_classes
 from sim.evidence import Call, Recording
+from sim.notebook.class_source import methods_of
 from sim.suggestions import closest_match, closest_ros_name
 
 _GET, _SET = "/get_parameters", "/set_parameters"
@@ -16,7 +19,10 @@ OF_EVERY_NODE = ("use_sim_time", "start_type_description_service", "qos_override
 
 
 def unknown_parameter(recording: Recording) -> str:
-    """A value for a parameter that no node of the student's declares: ROS drops it without a word."""
+    """A value for a parameter that no node of the student's declares: ROS drops it without a word.
+
+    A lifecycle node may declare it in `on_configure`, and any other one in a callback that did not run.
+    """
     rows = [
         row
         for row in recording.parameters
@@ -24,7 +30,7 @@ def unknown_parameter(recording: Recording) -> str:
     ]
     declared = {row.name for row in rows if row.declared}
     for _, node, name, _ in rows:
-        if name not in declared:
+        if name not in declared and not _may_be_declared(recording, node, name):
             own = dict.fromkeys(row.name for row in rows if row.declared and row.node == node)
             near = closest_match(name, own)
             listed = ", ".join(f"`{other}`" for other in own) or "none"
@@ -34,6 +40,22 @@ def unknown_parameter(recording: Recording) -> str:
                 f"ROS ignores it silently. {meant}"
             )
     return ""
+
+
+def _may_be_declared(recording: Recording, node: str, name: str) -> bool:
+    """Whether code that did not run declares the parameter, as a lifecycle node's that was not configured."""
+    change = f"{node}/change_state"
+    configured = any(call.service == change and call.response is not None for call in recording.calls)
+    if not configured and any(end.name == change for end in recording.graph.ends("service")):
+        return True
+    return any(
+        isinstance(part, ast.Call)
+        and getattr(part.func, "attr", "").startswith("declare_parameter")
+        and any(isinstance(leaf, ast.Constant) and leaf.value == name for leaf in ast.walk(part))
+        for class_ in node_classes(recording)
+        for method in methods_of(class_).values()
+        for part in ast.walk(method)
+    )
 
 
 def misspelt_parameter(recording: Recording) -> str:

@@ -62,11 +62,6 @@ PYTHON_RULES = (
         "callback, `asyncio.create_task(...)`, and return at once.",
     ),
     Rule(
-        "RuntimeError", r"can't start new thread",
-        "A loop or a callback starts another thread each time, and none of them ends. Start one thread in "
-        "`__init__`, or let a timer do the work.",
-    ),
-    Rule(
         "OverflowError", r"cannot convert float infinity to integer",
         "inf and -inf can't be converted to a whole number: check `math.isfinite(number)` first.",
     ),

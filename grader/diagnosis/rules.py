@@ -25,35 +25,6 @@ _NODE_INSIDES = (
 
 RULES = (
     Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'float'",
-        "`{0}` takes a number with a decimal point: set `msg.{0} = 1.0`, not `1`; `float(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'int'",
-        "`{0}` takes a whole number: set `msg.{0} = 1`, not `1.0`; `int(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'str'",
-        "`{0}` takes text: set `msg.{0} = 'text'`; `str(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'bool'",
-        "`{0}` takes True or False, not 1 or 0; `bool(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be a sub message of type '(\w+)'",
-        "`{0}` is a message of its own, a {1}: set the fields inside it (`msg.{0}.x = 1.0`), or assign a "
-        "whole {1}().",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be (an? .+)",
-        "`{0}` must be {1}: give it a value of that kind.",
-    ),
-    Rule(
-        "AssertionError", r"Invalid arguments passed to constructor: (.+)",
-        "This message has no field `{0}`. `get_fields_and_field_types()` of its class lists the fields.",
-    ),
-    Rule(
         "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '(?:[\w.]*\.Metaclass_)(\w+)'>",
         "publish() takes a message, not its class: make one first with `msg = {0}()`.",
     ),
@@ -66,6 +37,17 @@ RULES = (
         "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '[\w.]*?(\w+)'>",
         "This publisher was created for {0}, but got a {1}: use the same type in create_publisher() and "
         "publish().",
+    ),
+    *(
+        Rule(error, pattern, "Parentheses are missing after `super`: write `super().__init__('my_node')`.")
+        for error, pattern in (
+            ("TypeError", r"descriptor '\w+' requires a 'super' object"),
+            ("AttributeError", r"type object 'super' has no attribute"),
+        )
+    ),
+    Rule(
+        "TypeError", r"^node_init\b.*__init__\(\) takes 2 positional arguments but",
+        "`super()` passes `self` by itself: write `super().__init__('my_node')`.",
     ),
     Rule(
         "TypeError", r"__init__\(\) missing 1 required positional argument: 'node_name'",
@@ -144,6 +126,11 @@ RULES = (
     Rule(
         "RuntimeError", r"callback should be either be callable with one argument",
         "A subscription's callback takes the message: `def callback(self, msg):`, passed as `self.callback`.",
+    ),
+    Rule(
+        "RuntimeError", r"can't start new thread",
+        "A loop or a callback starts another thread each time, and none of them ends. Start one thread in "
+        "`__init__`, or let a timer do the work.",
     ),
     Rule(
         "RuntimeError", r"Context\.init\(\) must only be called once",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 
+from grader.diagnosis.filter_situations import filter_callback, filter_input
 from grader.diagnosis.other_types import other_type
 from grader.diagnosis.package_rules import absent_launch_file, own_module
 from grader.diagnosis.parameter_files import mixed_list, yaml_boolean
@@ -16,7 +16,7 @@ from grader.diagnosis.ros_situations import (
     invalid_description,
     invalid_transition,
 )
-from sim.evidence import CallbackError, Recording
+from sim.evidence import CallbackError, Recording, last_line
 from sim.ros.messages.codec import message_class
 
 # An error's text, and how its line uses the attribute that is None; `{0}` is the operator in the text.
@@ -39,6 +39,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
     """What to do about an error in its situation; "" where its words say enough."""
     return (
         own_module(error, recording)
+        or error.note
         or _refusal(error, recording)
         or _too_early(error, recording)
         or _nothing_received(error, recording)
@@ -51,6 +52,8 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or other_type(error, recording)
         or _not_there(error)
         or _no_distance(error, recording)
+        or filter_callback(error)
+        or filter_input(error)
         or invalid_transition(error, recording)
         or invalid_description(error, recording)
         or asyncio_pause(error)
@@ -130,7 +133,7 @@ def _no_future(error: CallbackError, recording: Recording) -> str:
 
 def _no_value(error: CallbackError) -> str:
     """A parameter used instead of the value it holds, or one that holds none."""
-    line = _last_line(error)
+    line = last_line(error)
     empty = re.search(r"get_parameter\(['\"]([^)]*)['\"]\)\.value", line)
     if empty and "NoneType" in error.text:
         return (
@@ -152,7 +155,7 @@ def _not_set_yet(error: CallbackError) -> str:
     if found is None or error.type != "TypeError":
         return ""
     operator = next(filter(None, found.groups()), "")
-    names = set(re.findall(use.format(re.escape(operator)), _last_line(error)))
+    names = set(re.findall(use.format(re.escape(operator)), last_line(error)))
     if len(names) != 1:
         return ""
     name = names.pop()
@@ -166,7 +169,7 @@ def _called_with_too_little(error: CallbackError) -> str:
     """A method that the student calls, and not ROS, without all that it needs."""
     known = "request|goal_handle|future"  # to the rules, as the methods create_... are
     found = re.search(rf"\b(?!create_)(\w+)\(\) missing \d+ .* arguments?: '(?!{known})", error.text)
-    if found is None or f"self.{found[1]}(" not in _last_line(error):
+    if found is None or f"self.{found[1]}(" not in last_line(error):
         return ""
     return (
         f"`{found[1]}` is called there without all of its arguments. Pass a callback without parentheses, "
@@ -177,7 +180,7 @@ def _called_with_too_little(error: CallbackError) -> str:
 def _gives_something_else(error: CallbackError) -> str:
     """A method's value put into a field that takes another kind."""
     field = re.search(r"The '(\w+)' field must be of type '(float|int)'", error.text)
-    called = re.search(r"=\s*self\.(\w+)\(", _last_line(error))
+    called = re.search(r"=\s*self\.(\w+)\(", last_line(error))
     if field is None or called is None or called[1].startswith("get_"):
         return ""
     number = "a number with a decimal point, such as 1.0" if field[2] == "float" else "a whole number"
@@ -189,7 +192,7 @@ def _gives_something_else(error: CallbackError) -> str:
 
 def _empty_slice(error: CallbackError) -> str:
     """A slice that was to go from the end of a list over to its beginning."""
-    part = re.search(r"\[(-\d+):(\d+)\]", _last_line(error))
+    part = re.search(r"\[(-\d+):(\d+)\]", last_line(error))
     if part is None or not re.search(r"(?:min|max)\(\) .*empty", error.text):
         return ""
     return (
@@ -203,7 +206,7 @@ def _not_there(error: CallbackError) -> str:
     name = re.search(r"No such file or directory: '(.*?)'(?:\. (Did you mean '.*?'\?))?", error.text)
     if error.type != "FileNotFoundError" or name is None:
         return ""
-    if re.search(r"subprocess|Popen|\brun\(|check_output\(|check_call\(", _last_line(error)):
+    if re.search(r"subprocess|Popen|\brun\(|check_output\(|check_call\(", last_line(error)):
         return (
             f"There is no program `{name[1]}` on this machine. What it would do can often be done in Python: "
             "a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do."
@@ -223,10 +226,3 @@ def _no_distance(error: CallbackError, recording: Recording) -> str:
         return ""
     found = rays_without_distance(recording, error.node, error.stamp)
     return f"{found} Check `math.isfinite(distance)` before you calculate with it." if found else ""
-
-
-def _last_line(error: CallbackError) -> str:
-    """The line of the student's code in which the error came up; "" where rclpy called what failed."""
-    lines = [line.strip() for line in error.traceback.splitlines()]
-    own = [after for line, after in itertools.pairwise(lines) if line.startswith("File ")]
-    return own[-1] if own else ""

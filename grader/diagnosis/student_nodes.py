@@ -72,6 +72,12 @@ def student_nodes(recording: Recording) -> Iterator[StudentNode]:
                 yield StudentNode(name, class_, methods, uses, registered, by_callback, subscriptions)
 
 
+def node_classes(recording: Recording) -> list[type]:
+    """The classes of nodes that the student's programs are or use; none for a recording as above."""
+    classes = _classes(run_programs(recording)).values()
+    return [class_ for class_ in classes if hasattr(class_, "create_publisher")]
+
+
 def assignments(part: ast.AST) -> Iterator[tuple[ast.AST, ast.AST | None]]:
     """Each target that this code assigns, with its value; None for a value that is not in the code."""
     for statement in ast.walk(part):

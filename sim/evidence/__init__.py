@@ -25,7 +25,7 @@ if TYPE_CHECKING:
         Goal,
         is_node_service,
     )
-    from sim.evidence.failure import first_error, first_line, frames_of, place_of
+    from sim.evidence.failure import first_error, first_line, frames_of, last_line, place_of
     from sim.evidence.graph import Endpoint, Graph, TimerInfo
     from sim.evidence.recording import Recording
     from sim.evidence.rows import (
@@ -33,8 +33,12 @@ if TYPE_CHECKING:
         CALLS_PUBLISH,
         FACTS,
         INFRASTRUCTURE_TOPICS,
+        NAMELESS,
+        RATE,
         SPUN,
         TAKEN_OVER,
+        UNFINISHED,
+        UNMATCHED,
         WATCHES,
         BusyLoop,
         CallbackError,
@@ -70,6 +74,7 @@ _MODULES = {
         "first_error",
         "first_line",
         "frames_of",
+        "last_line",
         "place_of",
     ),
     "sim.evidence.graph": (
@@ -83,8 +88,12 @@ _MODULES = {
         "CALLS_PUBLISH",
         "FACTS",
         "INFRASTRUCTURE_TOPICS",
+        "NAMELESS",
+        "RATE",
         "SPUN",
         "TAKEN_OVER",
+        "UNFINISHED",
+        "UNMATCHED",
         "WATCHES",
         "BusyLoop",
         "CallbackError",
@@ -113,10 +122,14 @@ __all__ = [
     "ENDINGS",
     "FACTS",
     "INFRASTRUCTURE_TOPICS",
+    "NAMELESS",
+    "RATE",
     "REJECTED",
     "SPUN",
     "STATUSES",
     "TAKEN_OVER",
+    "UNFINISHED",
+    "UNMATCHED",
     "WATCHES",
     "BusyLoop",
     "Call",
@@ -141,6 +154,7 @@ __all__ = [
     "first_line",
     "frames_of",
     "is_node_service",
+    "last_line",
     "place_of",
     "rate",
     "since_start",

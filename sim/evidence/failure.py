@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 from sim.evidence.rows import CallbackError
@@ -9,8 +10,8 @@ from sim.evidence.run_data import RunData
 
 UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
 STUCK = ("hang", "livelock", "blocked")  # reasons of an end that the programs are to blame for
-# Classes of rclpy that call a student's method inside a callback of their own.
-_RCLPY_CALLERS = ("ActionClient.", "ActionServer.", "ParameterService.")
+# Classes of ROS that call a student's method inside a callback of their own.
+_CALLERS = ("ActionClient.", "ActionServer.", "ParameterService.", "Subscriber.")
 
 
 def first_error(data: RunData) -> CallbackError | None:
@@ -36,6 +37,7 @@ def first_line(text: str, kind: str) -> str:
         text = re.sub(r" \([^()]+, line \d+\)$", "", text)
     if kind == "ImportError":
         text = re.sub(r" \((?:[^()]*/[^()]*|unknown location)\)$", "", text)
+    text = re.sub(r"-?\d{20,}(\.\d+)?", lambda number: f"{float(number[0]):.4g}", text)  # limits of a double
     return text.strip().split("\n")[0] or "no message"
 
 
@@ -49,10 +51,17 @@ def place_of(error: CallbackError) -> str:
         return f"in {unread[1]}, line {unread[2]}, at {error.stamp:.3g} s"
     own = frames_of(error)
     callback = error.callback or "a callback"
-    if own and callback.startswith(_RCLPY_CALLERS):
+    if own and callback.startswith(_CALLERS):
         callback = own[0][2]
     line = f", line {own[-1][1]}" if own else ""
     return f"in {callback}{line}, at {error.stamp:.3g} s"
+
+
+def last_line(error: CallbackError) -> str:
+    """The line of the user's code in which the error came up; "" where a library called what failed."""
+    lines = [line.strip() for line in error.traceback.splitlines()]
+    own = [after for line, after in itertools.pairwise(lines) if line.startswith("File ")]
+    return own[-1] if own else ""
 
 
 def frames_of(error: CallbackError) -> list[tuple[str, str, str]]:

@@ -41,6 +41,9 @@ class LogLine(NamedTuple):
     from_course: bool = False  # written by a program of the course
 
 
+NOTE = "Note: "  # begins the last line of a traceback that has one
+
+
 class CallbackError(NamedTuple):
     """An exception that left a callback, a thread or a main()."""
 
@@ -49,7 +52,12 @@ class CallbackError(NamedTuple):
     callback: str  # e.g. "Talker.tick"; the function's name for a main()
     type: str  # e.g. "ZeroDivisionError"
     text: str
-    traceback: str  # the student's frames only
+    traceback: str  # the student's frames only; at its end a note, if there is one
+
+    @property
+    def note(self) -> str:
+        """What is known about the cause: which function returned a None; "" if nothing is."""
+        return self.traceback.rpartition(f"\n{NOTE}")[2].strip() if f"\n{NOTE}" in self.traceback else ""
 
     @property
     def says(self) -> str:
@@ -100,11 +108,15 @@ SPUN = "spun"  # an executor has looked at its callbacks
 TAKEN_OVER = "taken over"  # a second executor took it away from one that spins
 WATCHES = "watches"  # it subscribes to a topic that every node has, such as /parameter_events
 CALLS_PUBLISH = "calls publish"  # the code that made its publisher has a call of publish()
-FACTS = (BUNDLED, CALLS_PUBLISH, SPUN, TAKEN_OVER, WATCHES)
+RATE = "rate"  # it has a Rate, which is a timer that the node has to be spun for
+NAMELESS = "nameless"  # one of two nodes of its name and program was destroyed, and took the name off /rosout
+UNFINISHED = "unfinished"  # one of its callbacks had begun and not returned when the run ended
+UNMATCHED = "unmatched stamps of"  # and topics: a synchronizer got messages of all, and never a set of them
+FACTS = (BUNDLED, CALLS_PUBLISH, NAMELESS, RATE, SPUN, TAKEN_OVER, UNFINISHED, WATCHES)
 
 
 class NodeFact(NamedTuple):
-    """What is known of a node beside what it did; one of FACTS, once for each node."""
+    """What is known of a node beside what it did: one of FACTS, or UNMATCHED; each once for a node."""
 
     stamp: Seconds
     node: str

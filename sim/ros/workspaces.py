@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
@@ -14,14 +15,17 @@ LAYOUT = ".colcon_install_layout"  # in install/
 def why_unavailable(package: str) -> str:
     """Why a package in a workspace here was not found, and what to do; "" for any other."""
     for folder in _workspaces():
-        shown = os.path.relpath(folder)
+        shown = _shown(folder)
         at, into = ("here", "") if shown == "." else (f"in {shown}", f"{shown}/")
         descriptions = {file: read_name(file) for file in _descriptions(folder / "src")}
-        for file, (_, error) in descriptions.items():
-            reason = (error or why_invalid(file)) if file.parent.name == package else ""
+        for file, (name, error) in descriptions.items():
+            reason = (error or why_invalid(file)) if package in (name, file.parent.name) else ""
             if reason:  # colcon builds it as plain Python
-                return f"{os.path.relpath(file)} is not valid: {reason}. Correct it, and build again."
-        if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
+                return f"{_shown(file)} is not valid: {reason}. Correct it, and build again."
+        prefix = _prefix_of(folder / "install", package)
+        if (folder / "install" / LAYOUT).exists() and prefix is not None:
+            if str(prefix) in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+                return ""  # it is sourced
             script = f"{into}install/setup.bash"
             both = f"`source {script}` in a terminal, `source('{script}')` in a notebook"
             return f"it is built but not sourced: {both}."
@@ -30,12 +34,24 @@ def why_unavailable(package: str) -> str:
     return ""
 
 
+def sources_of(package: str) -> dict[str, bytes]:
+    """A package's Python files and CMakeLists.txt in a workspace here, as "PACKAGE/setup.py" and so on."""
+    for folder in _workspaces():
+        for description in _descriptions(folder / "src"):
+            if read_name(description)[0] == package:
+                top = description.parent
+                files = (*top.rglob("*.py"), *top.glob("CMakeLists.txt"))
+                return {f"{package}/{file.relative_to(top).as_posix()}": file.read_bytes() for file in files}
+    return {}
+
+
 def read_name(file: Path) -> tuple[str, str]:
-    """The package's name in a package.xml, and why it can't be read; one of them is ""."""
+    """The package's name in a package.xml, and why it can't be read, or ""."""
     try:
         return (ElementTree.parse(file).findtext("name") or "").strip(), ""
     except ElementTree.ParseError as error:
-        return "", str(error)
+        name = re.search(r"<name>\s*(\w+)\s*</name>", file.read_text(encoding="utf-8", errors="replace"))
+        return name[1] if name else "", str(error)
 
 
 def why_invalid(file: Path) -> str:
@@ -57,9 +73,15 @@ def _workspaces() -> Iterator[Path]:
     yield from (here, *sorted(here.iterdir()), *here.parents)
 
 
-def _is_installed(install: Path, package: str) -> bool:
+def _shown(path: Path) -> str:
+    """A path as seen from the current folder, or whole if it is outside."""
+    relative = os.path.relpath(path)
+    return str(path) if relative.startswith("..") else relative
+
+
+def _prefix_of(install: Path, package: str) -> Path | None:
     prefixes = (install / package, install)
-    return any((prefix / INDEX / "packages" / package).is_file() for prefix in prefixes)
+    return next((prefix for prefix in prefixes if (prefix / INDEX / "packages" / package).is_file()), None)
 
 
 def _descriptions(sources: Path) -> Iterator[Path]:

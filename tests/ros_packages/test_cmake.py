@@ -109,8 +109,6 @@ def test_packages_build_that_name_linters_messages_and_python_packages(configure
 @pytest.mark.parametrize(
     ("package", "sentence"),
     {
-        "rclcpp": "rclcpp is for C++ (ROS's library for C++), and C++ nodes are not built here. Nodes in "
-        "Python need no such line.",
         "cv_bridge": "cv_bridge (converts between ROS images and OpenCV's arrays) is a ROS package that the "
         "course does not include. Remove its find_package if nothing here uses it.",
         "catkin": "catkin is a package of ROS 1. ROS 2 has ament_cmake, or ament_python.",
@@ -121,6 +119,41 @@ def test_a_package_that_is_not_here_is_explained_in_a_sentence(package, sentence
     write(tmp_path, "mine", f"{rules}find_package({package} REQUIRED)\n")
     done = colcon(tmp_path, "build")
     assert done.returncode == 1
+    assert sentence in re.sub(r"\s+", " ", done.stderr)
+
+
+REQUIRES_CPP = """\
+find_package(ament_cmake REQUIRED)
+find_package(rclcpp QUIET)
+if(rclcpp_FOUND)
+  message(FATAL_ERROR no)
+endif()
+find_package(rclcpp REQUIRED)
+find_package(rclcpp_components REQUIRED)
+{uses}
+ament_package()
+"""
+NOT_HERE = "and C++ nodes are not built here. Write the node in Python, or remove the lines of talker."
+LINKED = """\
+add_library(talker INTERFACE)
+set_target_properties(talker PROPERTIES LINK_LIBRARIES rclcpp::rclcpp)
+"""
+IN_AUTO = "find_package(ament_cmake_auto REQUIRED)\nament_auto_add_executable(talker src/talker.cpp)\n"
+IN_CPP = {
+    "": "",
+    "add_library(shape INTERFACE)\ntarget_link_libraries(shape INTERFACE m)": "",
+    LINKED: f"talker uses rclcpp, which is for C++ (ROS's library for C++), {NOT_HERE}",
+    'rclcpp_components_register_nodes(talker "a::Talker")': "talker uses rclcpp_components, which is for C++ "
+    f"(components in C++), {NOT_HERE}",
+    IN_AUTO: f"talker is in C++, {NOT_HERE}",
+}
+
+
+@pytest.mark.parametrize(("uses", "sentence"), IN_CPP.items())
+def test_packages_for_cpp_may_be_required_as_long_as_no_target_uses_one(uses, sentence, configured, tmp_path):
+    write(tmp_path, "mine", REQUIRES_CPP.format(uses=uses))
+    done = colcon(tmp_path, "build")
+    assert done.returncode == (1 if sentence else 0), done.stderr
     assert sentence in re.sub(r"\s+", " ", done.stderr)
 
 

@@ -4,9 +4,14 @@ import threading
 import time
 
 import rclpy
-from geometry_msgs.msg import Twist
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PoseWithCovariance, Twist
+from nav_msgs.msg import OccupancyGrid
+from rcl_interfaces.msg import ParameterValue
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64, Int32, String
+from trajectory_msgs.msg import JointTrajectory
 
 
 class Talker(Node):
@@ -45,6 +50,63 @@ class NumberForBool(Talker):
     def tick(self):
         msg = Bool()
         msg.data = 1
+
+
+class NumberForByte(Talker):
+    def tick(self):
+        msg = DiagnosticStatus()
+        msg.level = 1
+
+
+class WordsForNumbers(Talker):
+    def tick(self):
+        msg = JointState()
+        msg.velocity = ["fast"]
+
+
+class FractionsForWholeNumbers(Talker):
+    def tick(self):
+        msg = OccupancyGrid()
+        msg.data = [0.5]
+
+
+class NumbersForNames(Talker):
+    def tick(self):
+        msg = JointState()
+        msg.name = [1, 2]
+
+
+class NumbersForFlags(Talker):
+    def tick(self):
+        msg = ParameterValue()
+        msg.bool_array_value = [1, 2, 3]
+
+
+class NumbersForPoints(Talker):
+    def tick(self):
+        msg = JointTrajectory()
+        msg.points = [1.0]
+
+
+class TooFewValues(Talker):
+    def tick(self):
+        msg = PoseWithCovariance()
+        msg.covariance = [0.0] * 35
+
+
+class SuperWithoutParentheses(Node):
+    def __init__(self):
+        super.__init__("talker")
+
+
+class TimerOfSuperWithoutParentheses(Talker):
+    def tick(self):
+        super.create_timer(1.0, self.tick)
+
+
+class PassesSelfToSuper(Node):
+    def __init__(self):
+        super().__init__(self, "talker")
 
 
 class NumberForSubMessage(Talker):

@@ -19,6 +19,14 @@ macro(ament_auto_find_build_dependencies)
   endforeach()
 endmacro()
 
+# A program or library in C++.
+foreach(_auto_kind executable library)
+  cmake_language(EVAL CODE "
+    macro(ament_auto_add_${_auto_kind} target)
+      message(FATAL_ERROR \"\${target} is in C++, and C++ nodes are not built here. Write the node in Python, or remove the lines of \${target}.\")
+    endmacro()")
+endforeach()
+
 # Find each dependency of the tests.
 macro(ament_auto_find_test_dependencies)
   if(NOT _AMENT_PACKAGE_NAME)

@@ -15,9 +15,9 @@ class Subscriber(SimpleFilter):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         """args: node, message type, topic; kwargs: those of `create_subscription`, with a depth of 10."""
         super().__init__()
-        self.node, message_type, self.topic, *rest = args
+        self.node, self.topic = args[0], args[2]
         kwargs.setdefault("qos_profile", DEFAULT_DEPTH)
-        self.sub = self.node.create_subscription(message_type, self.topic, *rest, self.callback, **kwargs)
+        self.sub = self.node.create_subscription(*args[1:], self.callback, **kwargs)
 
     def callback(self, msg: Any) -> None:
         """Pass the message on."""

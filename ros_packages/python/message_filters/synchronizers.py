@@ -29,6 +29,7 @@ class TimeSynchronizer(SimpleFilter):
         super().__init__()
         self.connectInput(fs)
         self.queue_size = queue_size
+        self.passed_on = 0  # sets of messages
         self.lock = Lock()
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:
@@ -52,6 +53,7 @@ class TimeSynchronizer(SimpleFilter):
             del queue[min(queue)]
 
     def _pass_on(self, stamps: Sequence[int]) -> None:
+        self.passed_on += 1
         self.signalMessage(*(queue[stamp] for queue, stamp in zip(self.queues, stamps, strict=True)))
         for queue, stamp in zip(self.queues, stamps, strict=True):
             del queue[stamp]

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from rclpy.task import Task
 
+from sim.evidence import UNFINISHED, UNMATCHED
+from sim.nanoseconds import Nanoseconds
 from sim.ros.engine.limits import RunLimits
+from sim.ros.engine.unmatched_stamps import unmatched_topics
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.fibers.waiter import Waiter
 from sim.ros.recorder.recorder import Recorder
@@ -29,10 +32,11 @@ class Work(NamedTuple):
 
 @dataclass(slots=True)
 class TaskState:
-    """What a run stores with a task: the callback that it is, if any; and when it last made no progress."""
+    """What a run stores with a task: the callback that it is, if any; and how it goes on."""
 
     running: RunningCallback | None = None
     seen_wakes: int | None = None  # of its executor, when it last waited
+    since: Nanoseconds = 0  # when it last made progress
 
 
 def state_of(task: Task) -> TaskState:
@@ -78,6 +82,7 @@ class Callbacks:
             running = self._running(work)
             task = Task(self._recorded_coroutine, (work, running), executor=executor)
             state_of(task).running = running
+            state_of(task).since = running.began
             executor._tasks.append((task, work.entity, work.node))
             self._step(task)
             return True
@@ -87,6 +92,15 @@ class Callbacks:
             if group is not None:
                 group.ending_execution(work.entity)
         return True
+
+    def note_unfinished(self, nodes: Iterable[Any]) -> None:
+        """The run ends: record of which nodes a callback is under way, and which synchronizers had no set."""
+        for node in nodes:
+            for topics in unmatched_topics(node):
+                self._recorder.node_fact(node, " ".join([UNMATCHED, *topics]))
+        on_stacks = (running for fiber in self._scheduler.fibers for running in fiber.callbacks)
+        for running in (*self.suspended, *on_stacks):
+            self._recorder.fact(running.node, UNFINISHED)
 
     def _running(self, work: Work) -> RunningCallback:
         """The record of a piece of work while it runs."""
@@ -136,6 +150,7 @@ class Callbacks:
         else:  # a done callback of a future, or a function given to create_task()
             self._call(self._running(work), self._step, (task,))
         if task.done() or _position(task) != before:
+            state_of(task).since = self._scheduler.now
             self._scheduler.student_code_ran()
             return True
         # It still waits for the same thing: poll it again when something has happened.

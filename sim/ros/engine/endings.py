@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.timer import Rate
 
 from sim.evidence import Ended
 from sim.nanoseconds import SECOND
+from sim.ros.engine.awaits import useless_await
 from sim.ros.engine.engine import Engine
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.recorder.records import ActionRecord, ClientRecord
@@ -15,6 +17,7 @@ from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
 
 AFTER_RETURN = "can only be handled in the same callback group, after it has returned."
+_SLEEPS_AT_RATE = "the timer of the Rate, which needs the thread that waits"
 BLOCKED_AFTER = SECOND  # of waiting; until then a callback is just slow
 
 
@@ -35,7 +38,12 @@ def conclusion(engine: Engine, over: int | None) -> Ended:
 
 def blocked(engine: Engine) -> str | None:
     """Which callback waits for something that can't happen, in a sentence; None if none does."""
-    return _blocked_call(engine) or _blocked_coroutine(engine)
+    executors = [waiter.executor for waiter in engine.waiters.all]
+    return (
+        _blocked_call(engine)
+        or _blocked_coroutine(engine)
+        or useless_await(executors, engine.now, BLOCKED_AFTER, engine.recorder.name_of)
+    )
 
 
 def _blocked_call(engine: Engine) -> str | None:
@@ -57,13 +65,20 @@ def _since(running: RunningCallback) -> str:
 def _why(engine: Engine, fiber: Fiber, running: RunningCallback) -> str:
     waited = _pending(engine, running)
     if not waited:
-        return f"It waits for {fiber.waits_for}."
+        return f"It waits for {_SLEEPS_AT_RATE if _sleeps_at_rate(fiber) else fiber.waits_for}."
     if (
         isinstance(running.group, MutuallyExclusiveCallbackGroup)
         and waited[0].callback_group is running.group
     ):
         return f"{_response_to(waited[0])} {AFTER_RETURN}"
     return f"{_response_to(waited[0])} can only be handled by the thread that waits for it."
+
+
+def _sleeps_at_rate(fiber: Fiber) -> bool:
+    frame = fiber.greenlet.gr_frame
+    while frame is not None and frame.f_code is not Rate.sleep.__code__:
+        frame = frame.f_back
+    return frame is not None
 
 
 def _blocked_coroutine(engine: Engine) -> str | None:

@@ -177,6 +177,10 @@ class Engine(Scheduler):
             del self.time
             self.waiters.clear()
 
+    def note_unfinished(self) -> None:
+        """Record what programs wait for as the run ends."""
+        self.callbacks.note_unfinished(node for program in self.programs for node in program.nodes)
+
     def finish(self) -> None:
         """Let programs run on that have to end now."""
         with contextlib.suppress(Livelock):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sim.nanoseconds import SECOND
 from sim.ros.fibers.fiber import Program
-from sim.ros.fibers.scheduler import Scheduler
+from sim.ros.fibers.scheduler import CALL_COST, Scheduler
 
 MAX_CALLBACKS_PER_INSTANT = 20_000
 # Callbacks and waits of one program in a simulated second. Measured: rclpy's own executor calls a timer that
@@ -12,6 +12,7 @@ MAX_CALLBACKS_PER_INSTANT = 20_000
 MAX_PACE = 5_000
 MAX_AHEAD = 20_000  # so many more, before that counts as long
 LOOK_AFTER = 1_000  # callbacks and switches
+FREE_REQUESTS = 1_000  # in a row that take no time, of a loop that is in no callback
 
 
 class RunLimits:
@@ -25,6 +26,7 @@ class RunLimits:
         self._callbacks = self._callbacks_before = 0
         self.pace = MAX_PACE
         self._second, self._look_at = 0, 0  # the simulated second under way; the work at which to look again
+        self._requests: dict[Program, int] = {}  # by program, those that time has passed for included
         self._counted: dict[Program, int] = {}  # the steps of each program until then that its pace allows
 
     @property
@@ -39,6 +41,15 @@ class RunLimits:
     def begin_moment(self) -> None:
         """Start a new time step: reset the count of its callbacks."""
         self._callbacks_before = self._callbacks
+
+    def count_request(self) -> None:
+        """A request or goal is about to be sent. A loop outside callbacks that sends many makes progress."""
+        fiber, now = self._scheduler.current, self._scheduler.now
+        if not fiber.callbacks:
+            paid = now // CALL_COST
+            self._requests[fiber.process] = sent = max(self._requests.get(fiber.process, 0), paid) + 1
+            if sent > FREE_REQUESTS + paid:
+                self._scheduler.wait("a response", until=now + CALL_COST)
 
     def count_callback(self) -> None:
         """A callback is about to run. Raises Livelock when too many ran without time moving."""

@@ -40,6 +40,7 @@ class MainLoop:
             self._engine.step(self.due)
             ended = self._ended()
             if ended is not None:
+                self._engine.note_unfinished()
                 return ended
             self.due = self._engine.next_moment(self._end)
         return None

@@ -6,7 +6,6 @@ import inspect
 from typing import Any
 
 from sim.ros.engine.callbacks import Work
-from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.calls import Calls
 from sim.ros.recorder.records import ServiceRecord
 
@@ -23,19 +22,15 @@ def service_work(calls: Calls, service: Any, node: Any, request: Any, header: An
     """The work of a service that has taken a request: run its callback, and send the response."""
     call = calls.request_taken(service, node, header.request_id.sequence_number, request)
 
-    def respond(response: Any) -> None:
-        expect(response, service.srv_type.Response)
-        raw = encode(response)
-        service.send_response(response, header)
-        calls.response_sent(call, raw)
+    service._sim.unanswered[id(header)] = call
 
     def answer() -> None:
         with calls.answering(call):
-            respond(service.callback(request, service.srv_type.Response()))
+            service.send_response(service.callback(request, service.srv_type.Response()), header)
 
     async def answer_later() -> None:
         with calls.answering(call):
-            respond(await service.callback(request, service.srv_type.Response()))
+            service.send_response(await service.callback(request, service.srv_type.Response()), header)
 
     function = answer_later if inspect.iscoroutinefunction(service.callback) else answer
     return Work("service", service, node, function, (), service.callback)

@@ -12,6 +12,7 @@ import threading
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from typing import Any
+from weakref import WeakSet
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import (
@@ -22,7 +23,7 @@ from rclpy.executors import (
     TimeoutObject,
 )
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
-from rclpy.task import Task
+from rclpy.task import Future, Task
 
 from sim.evidence import TAKEN_OVER
 from sim.nanoseconds import Nanoseconds, nanoseconds
@@ -68,6 +69,7 @@ class SimExecutor(Waiter):
         self._last_spin: tuple[Any, Any] = (None, never)  # timeout and condition of the last spin_once
         self._depth = 0  # callbacks of this executor that are on the stack
         self.spinning = 0  # calls of `spin_once` under way
+        self.wakers: WeakSet[Future] = WeakSet()  # futures whose completion wakes this executor
         self.lost: list[Any] = []  # nodes that another executor took over while this one did not spin
         self._lends = False  # work is given to student code, which runs it when and where it likes
 

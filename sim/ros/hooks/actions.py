@@ -76,6 +76,7 @@ def send_goal_async(original: Callable) -> Callable:
         if run is None:
             return original(self, goal, *arguments, **keywords)
         expect(goal, self._action_type.Goal)
+        run.limits.count_request()
         raw = encode(goal)
         with run.recorder.calls.sending(run.recorder.goals.discovered(self)):
             future = original(self, goal, *arguments, **keywords)

@@ -13,6 +13,7 @@ import rclpy.wait_for_message
 from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
+from rclpy.task import Future
 
 from sim.evidence import SPUN
 from sim.nanoseconds import nanoseconds
@@ -61,6 +62,24 @@ def _spin_once_impl(owner: type, parallel: bool) -> None:
 
 _spin_once_impl(SingleThreadedExecutor, parallel=False)
 _spin_once_impl(MultiThreadedExecutor, parallel=True)
+
+
+def _spin_once_until_future_complete(owner: type) -> None:
+    @hook(owner, "spin_once_until_future_complete", "each spin would leave one more task that only wakes it")
+    def spin(original: Callable) -> Callable:
+        def spin_once_until_future_complete(self: Any, future: Future, timeout_sec: Any = None) -> None:
+            sim = self.__dict__.get("_sim")
+            if sim is None or engine() is not sim.engine or future not in sim.wakers:
+                if sim is not None:
+                    sim.wakers.add(future)
+                return original(self, future, timeout_sec)
+            return self._spin_once_impl(timeout_sec, future.done)
+
+        return spin_once_until_future_complete
+
+
+_spin_once_until_future_complete(SingleThreadedExecutor)
+_spin_once_until_future_complete(MultiThreadedExecutor)
 
 
 @hook(Executor, "_wait_for_ready_callbacks", "a student's own executor waits in simulated time, too")

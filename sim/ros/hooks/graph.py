@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
+from sim.evidence import RATE
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.running_program import shared_context
 from sim.ros.engine.sim_executor import NOT_VALID
@@ -88,6 +89,8 @@ def create_timer(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             run.recorder.timer_created(self, timer)
+            if timer.callback_group is self._rate_group:
+                run.recorder.node_fact(self, RATE)
         return timer
 
     return create_timer

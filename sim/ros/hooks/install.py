@@ -13,6 +13,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     executors,
     graph,
     graph_queries,
+    namesakes,
     node_in_cell,
     parameters,
     processes,
@@ -24,6 +25,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
 )
 from sim.ros.hooks.table import HOOKS, Hook
 from sim.ros.hooks.verify import check_arguments, check_internals, original_of
+from sim.ros.messages import number_lists
 
 # Modules of Python that bound a clock by name, for their timeouts.
 READS_CLOCKS = ("queue", "sched", "threading")
@@ -36,6 +38,7 @@ def install() -> None:
     if _replaced:
         return
     check_internals()
+    number_lists.install()
     for hook, original, replacement in [(hook, *_replacement(hook)) for hook in HOOKS]:
         if isinstance(hook.owner, ModuleType):
             _replaced[id(original)] = (original, replacement)

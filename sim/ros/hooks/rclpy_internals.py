@@ -55,7 +55,10 @@ ATTRIBUTES: dict[type, tuple[str, ...]] = {
     GuardCondition: ("_executor_triggered",),
     JumpHandle: ("_post_callback", "_pre_callback"),
     MultiThreadedExecutor: ("_executor",),
-    Node: ("_allow_undeclared_parameters", "_parameter_overrides", "_parameters", "_time_source"),
+    Node: (
+        *("_allow_undeclared_parameters", "_parameter_overrides", "_parameters"),
+        *("_rate_group", "_time_source"),
+    ),
     ParameterService: ("_get_node",),
     ServerGoalHandle: ("_action_server", "_goal_handle"),
     Subscription: ("_callback_type",),

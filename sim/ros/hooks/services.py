@@ -71,6 +71,21 @@ def service_init(original: Callable) -> Callable:
     return __init__
 
 
+@hook(Service, "send_response", "every response is recorded as the bytes that are sent, also a library's")
+def send_response(original: Callable) -> Callable:
+    def send_response(self: Service, response: Any, header: Any) -> None:
+        run, record = engine(), self.__dict__.get("_sim")
+        call = None if run is None or record is None else record.unanswered.pop(id(header), None)
+        if call is None:
+            return original(self, response, header)
+        expect(response, self.srv_type.Response)
+        raw = encode(response)
+        original(self, response, header)
+        return run.recorder.calls.response_sent(call, raw)
+
+    return send_response
+
+
 @hook(Node, "create_client", "the graph")
 def create_client(original: Callable) -> Callable:
     def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
@@ -114,6 +129,7 @@ def call_async(original: Callable) -> Callable:
         if run is None or "_sim" not in self.__dict__:
             return original(self, request)
         expect(request, self.srv_type.Request)
+        run.limits.count_request()
         raw, calls = encode(request), run.recorder.calls
         with calls.sending(calls.discovered(self)):
             future = original(self, request)

@@ -18,6 +18,7 @@ from sim.ros.bundled_programs import command_in_a_run
 from sim.ros.engine.program import Process
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.launching.respawned import interrupt, kill
+from sim.ros.left_out import is_left_out, left_out
 from sim.ros.packages import bundled_command, executable, forget_modules
 
 PYTHON = re.compile(r"python(3(\.\d+)?)?")
@@ -47,11 +48,12 @@ class SimProcessStarter:
 
     def find_bundled(self, package: str, name: str) -> str | None:
         """As launch's `ProcessStarter`. Raises ExecutableNotFound."""
-        if bundled_command(package, name) is None:
-            return None
         path = f"{sys.prefix}/lib/{package}/{name}"
-        self._bundled[path] = executable(package, name)
-        return path
+        if is_left_out(package, name):
+            self._bundled[path] = left_out(package)
+        elif bundled_command(package, name) is not None:
+            self._bundled[path] = executable(package, name)
+        return path if path in self._bundled else None
 
     async def start(
         self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: Callable
@@ -158,6 +160,8 @@ def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]
         first, *arguments = arguments
     path = Path(folder, first)
     if not path.is_file():
+        if first == name and is_left_out(name, name):
+            return left_out(name), arguments
         if first == name and not path.suffix:
             raise _unsupported(f"`{first}`")
         raise UnsupportedProgram(f"[Errno 2] No such file or directory: '{path}'")

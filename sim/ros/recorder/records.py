@@ -60,6 +60,7 @@ class ServiceRecord(EndpointRecord):
     node: str = ""
     called: bool = False  # a request was sent to it at some time
     has_requests: bool = True  # one may wait in its queue
+    unanswered: dict[int, Call] = field(default_factory=dict)  # taken requests, by the id() of their header
 
 
 @dataclass(slots=True, kw_only=True)

@@ -2,21 +2,37 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import linecache
+import re
 import sysconfig
 import traceback
 from types import CodeType, FrameType
 
 from sim.course_folders import COURSE, ROS_PACKAGES
+from sim.evidence.rows import NOTE
+from sim.notebook.none_origin import none_origin
 
 # Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
 _OF_COURSE = (str(COURSE / "sim"), str(ROS_PACKAGES))
+_CALLS = "callback", "_handler"  # attributes of timers and the like, and of tasks
+_WRONG_CALL = re.compile(r"^(?:\S+\.)?([\w<>]+)\(\) (?:takes|missing) ")
+_INTERFACE = re.compile(r"/(msg|srv|action)/_\w+\.py$")
 _LIBRARIES = (*_OF_COURSE, *sysconfig.get_paths().values(), "<frozen ")
 
 
 def is_library(filename: str) -> bool:
     """Whether a source file is part of a library, this package or Python, and so not the student's."""
-    return filename.startswith(_LIBRARIES)
+    return filename.startswith(_LIBRARIES) or (
+        _INTERFACE.search(filename) is not None and _is_generated(filename)
+    )
+
+
+@functools.cache
+def _is_generated(filename: str) -> bool:
+    """Whether it is the Python code of a message, service or action that rosidl generated."""
+    return linecache.getline(filename, 1).startswith("# generated from rosidl_generator_py")
 
 
 def is_of_course(filename: str) -> bool:
@@ -33,12 +49,34 @@ def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
             line = frame.lineno or line_at(at.tb_frame.f_code, at.tb_lasti)
             own.append(frame if frame.lineno else traceback.FrameSummary(frame.filename, line, frame.name))
         at = at.tb_next
-    return own
+    return own or _called_wrongly(error)
+
+
+def _called_wrongly(error: BaseException) -> list[traceback.FrameSummary]:
+    """Where the student's function begins that a library called with other arguments than it takes."""
+    at, found = error.__traceback__, _WRONG_CALL.search(text_of(error))
+    if at is None or not isinstance(error, TypeError) or found is None:
+        return []
+    while at.tb_next is not None:
+        at = at.tb_next
+    values = [*at.tb_frame.f_locals.values()]
+    values += [inspect.getattr_static(each, name, None) for each in values for name in _CALLS]
+    for each in values:
+        code = getattr(getattr(each, "__func__", each), "__code__", None)
+        is_it = isinstance(code, CodeType) and code.co_qualname.endswith(found[1])
+        if is_it and not is_library(code.co_filename):
+            return [traceback.FrameSummary(code.co_filename, code.co_firstlineno, code.co_name)]
+    return []
 
 
 def student_traceback(error: BaseException) -> str:
-    """An exception's traceback, as Python prints it, with the student's frames only."""
-    return "".join(traceback.format_list(student_frames(error)) + traceback.format_exception_only(error))
+    """An exception's traceback, as Python prints it, with the student's frames only.
+
+    If the exception is about a None whose origin is known, its last line says which function returned it.
+    """
+    origin = none_origin(error, is_library)
+    lines = [*traceback.format_list(student_frames(error)), *traceback.format_exception_only(error)]
+    return "".join([*lines, f"{NOTE}{origin}\n" if origin else ""])
 
 
 def text_of(error: BaseException) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from sim.evidence import (
     FACTS,
+    UNMATCHED,
     BusyLoop,
     CallbackError,
     CallbackRun,
@@ -118,7 +119,9 @@ class SelfReports:
         self._recording.parameters.append(parameter)
 
     def _node_fact(self, node: Any, fact: Any) -> None:
-        if fact not in FACTS:
+        topics = fact.removeprefix(UNMATCHED).split() if isinstance(fact, str) else []
+        unmatched = fact == " ".join([UNMATCHED, *topics]) and all(map(self._name, topics))
+        if fact not in FACTS and not unmatched:
             raise ProtocolError("an unknown fact of a node")
         self._engine.recorder.fact(self._node(node), fact)
 

@@ -127,6 +127,8 @@ class FollowerLoop:
 
     def _answer(self, busy: bool) -> dict[str, Any]:
         engine, link, fault = self._engine, self._link, self._engine.fault
+        if engine.now >= self._end:
+            engine.note_unfinished()
         return {
             "events": link.take_outgoing(),
             "self_reports": link.take_self_reports(),

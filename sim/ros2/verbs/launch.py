@@ -9,7 +9,8 @@ from argparse import Namespace
 from sim import ros_environment
 from sim.ros.absent_names import explain_absent_name
 from sim.ros.launching import files
-from sim.ros.packages import bundled_command, packages
+from sim.ros.left_out import command_of_launch
+from sim.ros.packages import packages
 from sim.ros2.domains import selected_domain
 from sim.ros2.environment import environment_before, require_terminal
 from sim.ros2.group import Group, argument, flag
@@ -60,7 +61,7 @@ def launch_(output: Output, options: Namespace) -> None:
     ros_environment.open_to_this_machine(selected_domain())  # for launch's own node, with lifecycle nodes
     noninteractive = options.noninteractive or not sys.stdin.isatty()
     service = LaunchService(argv=rest, noninteractive=noninteractive, debug=options.debug)
-    service.context.process_starter = SystemProcessStarter(bundled_command)
+    service.context.process_starter = SystemProcessStarter(command_of_launch)
     service.context.replace_environment(environment_before())
     service.include_launch_description(description)
     status = service.run()

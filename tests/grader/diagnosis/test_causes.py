@@ -6,7 +6,7 @@ from grader.companions.service_clients import Tuner
 from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
-from tests.grader.diagnosis import test_radio, test_reported
+from tests.grader.diagnosis import test_radio, test_reported, test_silent_mistakes
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits, service_misfits
 from tests.students.actions.square import SquareClient
@@ -184,6 +184,7 @@ def test_every_diagnosis_is_earned_by_some_students():
     recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
     recordings += [namesakes(), run(misfits.Talker, companions=[misfits.Talker], quiet=True)]
     recordings += map(tuned, TUNED)
+    recordings += [test_silent_mistakes.record(*programs) for programs in test_silent_mistakes.SILENT]
     recordings += map(test_reported.record, test_reported.FLAWS)
     recordings += [test_radio.record(*case[:3]) for case in test_radio.SENTENCES]
     unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]

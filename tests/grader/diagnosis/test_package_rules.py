@@ -9,6 +9,7 @@ from grader.diagnosis.error_advice import advice
 from grader.diagnosis.package_rules import PACKAGE_RULES, own_module
 from sim import run
 from sim.evidence import CallbackError, Recording
+from sim.ros.workspaces import INDEX, LAYOUT
 from tests.exercises.score_tables import graded_exercises, page
 
 HINTS = {
@@ -52,3 +53,55 @@ def test_elsewhere_a_module_that_is_not_there_has_its_usual_advice():
 def test_a_launch_file_that_is_not_found_gets_advice(arguments, hint, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert find_fault(run(arguments, seconds=1, quiet=True)).hint == hint
+
+
+FIND = "In setup.py, packages=find_packages(exclude=['test']) finds each folder that has an __init__.py."
+CMAKE = "find_package(ament_cmake_python REQUIRED)\n"
+UNINSTALLED = [
+    ({"setup.py": "packages=['foo']"}, "foo.sub", f"foo/sub/__init__.py was not installed. {FIND}"),
+    ({"setup.py": "packages=['foo']"}, "foo.sub.a", f"foo/sub/a.py was not installed. {FIND}"),
+    ({"setup.py": "packages=[]"}, "foo", f"foo/__init__.py was not installed. {FIND}"),
+    (
+        {"setup.py": "packages=find_packages()", "foo/sub/__init__.py": None},
+        "foo.sub",
+        "foo/sub has no __init__.py, so its modules are not installed: add an empty file of that name, and "
+        "build again.",
+    ),
+    (
+        {"setup.py": "packages=find_packages()"},
+        "foo.sub",
+        "foo/sub/__init__.py was not installed. If it is newer than the last build, run colcon build again.",
+    ),
+    (
+        {"CMakeLists.txt": f"{CMAKE}ament_python_install_package(foo)"},
+        "foo.sub.a",
+        "foo/sub/a.py was not installed. If it is newer than the last build, run colcon build again.",
+    ),
+    (
+        {"CMakeLists.txt": "find_package(ament_cmake REQUIRED)"},
+        "foo",
+        "foo/__init__.py was not installed. In CMakeLists.txt, ament_python_install_package(${PROJECT_NAME}) "
+        "installs the folder foo/, after find_package(ament_cmake_python REQUIRED).",
+    ),
+    ({"setup.py": "packages=['foo']"}, "foo.sbu", ""),
+]
+
+
+@pytest.mark.parametrize(("files", "module", "hint"), UNINSTALLED)
+def test_a_module_that_a_built_package_left_out_is_found_in_its_sources(
+    files, module, hint, tmp_path, monkeypatch
+):
+    built = tmp_path / "install/foo"
+    (built / INDEX / "packages").mkdir(parents=True)
+    (built / INDEX / "packages/foo").write_text("")
+    (tmp_path / "install" / LAYOUT).write_text("isolated\n")
+    code = {"foo/__init__.py": "", "foo/sub/__init__.py": "", "foo/sub/a.py": "def main(): pass\n"}
+    for path, text in {"package.xml": "<package><name>foo</name></package>", **code, **files}.items():
+        if text is not None:
+            file = tmp_path / "src/foo_package" / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(built))
+    error = CallbackError(0.0, "", "a", "ModuleNotFoundError", f"No module named '{module}'", "")
+    assert own_module(error, Recording()) == hint

@@ -24,7 +24,7 @@ ADVICE = {
     "ComparesWithTheSystemsTime": "A node's clock has ROS time, and a bare Time() system time. Name the clock type: `Time(seconds=3, clock_type=self.get_clock().clock_type)`; `Time.from_msg(stamp)` doesn't need it.",
     "DurationForAMessage": "`estimated_time_remaining` is itself a message: `.to_msg()` converts a Duration into one, as in `Duration(seconds=1.5).to_msg()`.",
     "TooShallow": "In an Odometry message it is two levels down: `msg.pose.pose.orientation`.",
-    "ForgetsToReturn": "A function on that line returned nothing: end it with `return` and its result.",
+    "ForgetsToReturn": "`self.polar` returned None, because it has no `return` with a value. End it with `return` and a value.",
     "QueueOfNumbers": "Several values were expected, but there was one float: return them together, as in `return x, y`, or as a pair, `(number, cell)`.",
     "IndexForAList": "There was one int where a list or a point was expected: check what the function called before returns.",
     "DistanceForAPoint": "There was one float where a list or a point was expected: check what the function called before returns.",

@@ -22,7 +22,7 @@ TOO_EARLY = (
     "The response isn't there yet: {} returns at once, with a future that is still empty. "
     "`future.add_done_callback(self.on_response)`, without parentheses after the method, lets ROS call it once the response has arrived; there, future.result() is the response."
 )
-GENERAL = "Read the line that it names, and think about the values there at that moment; `print` shows them."
+GENERAL = ""
 
 
 class AsksItself(Node):

@@ -80,6 +80,7 @@ def reported(result: Result) -> str:
     if result.student in BY_CHANCE:
         return block(result)
     lines = [f"  Saw in {cell.exercise}: {it['saw'].rstrip('.')}. {it['hint']}" for cell, it in missed]
+    lines = [line.rstrip() for line in lines]
     return re.sub(r"line \d+", "line N", "\n".join([block(result), *lines]))
 
 

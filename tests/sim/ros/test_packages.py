@@ -158,6 +158,14 @@ def test_a_package_that_was_not_built_is_found_by_its_package_xml(tmp_path, monk
     assert reason("fresh") == f"Package 'fresh' not found: {what}"
 
 
+def test_a_workspace_above_the_current_folder_is_named_in_full(tmp_path, monkeypatch):
+    (tmp_path / "ws/src/fresh").mkdir(parents=True)
+    (tmp_path / "ws/src/fresh/package.xml").write_text(VALID.format("fresh"))
+    monkeypatch.chdir(tmp_path / "ws/src/fresh")
+    what = f"it is in {tmp_path}/ws/src but not built: run colcon build in {tmp_path}/ws."
+    assert reason("fresh") == f"Package 'fresh' not found: {what}"
+
+
 def test_what_cannot_be_sourced_is_refused(tmp_path):
     with pytest.raises(FileNotFoundError) as caught:
         source(tmp_path / "setup.bash")
@@ -248,6 +256,14 @@ def test_a_package_xml_that_cannot_be_read_is_named_even_if_colcon_built_the_pac
         "Package 'broken' not found: ws/src/broken/package.xml is not valid: mismatched tag: line 4, column "
         "2. Correct it, and build again."
     )
+
+
+@pytest.mark.parametrize("line", ["<depend>a<depend>", "<depends>a</depends>"])
+def test_a_package_xml_in_a_folder_of_another_name_is_named_if_it_is_not_valid(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "src/folder").mkdir(parents=True)
+    (tmp_path / "src/folder/package.xml").write_text(VALID.format("mine").replace("  <export>", line))
+    assert reason("mine").startswith("Package 'mine' not found: src/folder/package.xml is not valid: ")
 
 
 @pytest.mark.parametrize(

@@ -98,5 +98,5 @@ def counted(done: Shift) -> list[Seconds]:
 def _why(recording: Recording, delivers: bool) -> str:
     fault = find_fault(recording)
     if fault is not None:
-        return f"{fault.saw}. {fault.hint}"
+        return f"{fault.saw}. {fault.hint}".rstrip()
     return "" if delivers else find_flaw(recording) or ""

@@ -1,0 +1,40 @@
+# Packages for C++ are found, because packages without C++ often require them. A target that uses one is refused.
+include_guard(GLOBAL)
+
+function(cpp_package package about)
+  add_library(${package}::${package} INTERFACE IMPORTED GLOBAL)
+  set(${package}_TARGETS ${package}::${package} PARENT_SCOPE)
+  get_property(_known GLOBAL PROPERTY COURSE_CPP_PACKAGES)
+  if(NOT _known)
+    cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL refuse_cpp_targets)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY COURSE_CPP_PACKAGES ${package})
+  set_property(GLOBAL PROPERTY COURSE_ABOUT_${package} "${about}")
+endfunction()
+
+function(refuse_cpp_target target package)
+  get_property(_about GLOBAL PROPERTY COURSE_ABOUT_${package})
+  message(FATAL_ERROR "${target} uses ${package}, which is for C++ (${_about}), and C++ nodes are not built here. "
+    "Write the node in Python, or remove the lines of ${target}.")
+endfunction()
+
+function(refuse_cpp_targets)
+  get_property(_packages GLOBAL PROPERTY COURSE_CPP_PACKAGES)
+  get_property(_targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(_target ${_targets})
+    get_target_property(_used ${_target} LINK_LIBRARIES)
+    foreach(_package ${_packages})
+      if("${_used}" MATCHES "(^|;)${_package}(::|;|$)")
+        refuse_cpp_target(${_target} ${_package})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+macro(rclcpp_components_register_nodes target)
+  refuse_cpp_target(${target} rclcpp_components)
+endmacro()
+
+macro(rclcpp_components_register_node target)
+  refuse_cpp_target(${target} rclcpp_components)
+endmacro()
