@@ -15,9 +15,9 @@ from grader.diagnosis import (
     parameters,
     program_end,
     radio,
+    sent_transforms,
     services,
     synchronizers,
-    transforms,
     two_executors,
 )
 from grader.diagnosis.bundled import as_course_programs
@@ -46,8 +46,8 @@ DIAGNOSES = (
     services.no_server,
     activity.never_spun,
     synchronizers.never_met,
-    transforms.zero_stamp,
-    transforms.two_broadcasters,
+    sent_transforms.zero_stamp,
+    sent_transforms.two_broadcasters,
     services.response_not_received,
     actions.no_goal_response,
     actions.no_ending,
