@@ -171,7 +171,8 @@ class NotebookRun:
         score, worth = tested.score, float(cell.metadata.nbgrader.points)
         self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
         problems = score_outputs.alarms(score)
-        self._flag(cell, [*problems, *score_outputs.spoofed_topics(score)])
+        look = [*score_outputs.spoofed_topics(score), *score_outputs.unused_offers(score)]
+        self._flag(cell, [*problems, *look])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
         converted = _text(score_outputs.conversion(shown_score, worth))

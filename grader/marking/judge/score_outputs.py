@@ -40,6 +40,40 @@ def spoofed_topics(score: Score) -> list[str]:
     ]
 
 
+# What a student's endpoint needs at the other end.
+COUNTERPARTS = {
+    "subscription": "publisher",
+    "client": "service",
+    "service": "client",
+    "action client": "action server",
+    "action server": "action client",
+}
+# Of every robot: a right program may drive without its sensors.
+OF_ROBOTS = {
+    *("/battery_state", "/bumper", "/clock", "/imu/data", "/joint_states", "/map", "/odom"),
+    *("/parameter_events", "/robot_description", "/rosout", "/scan", "/tf", "/tf_static"),
+}
+
+
+def unused_offers(score: Score) -> list[str]:
+    """A flag for full points of nodes that receive nothing from the course's programs, though they send."""
+    offered: set[tuple[str, str]] = set()
+    received: set[tuple[str, str]] = set()
+    for recording in score.recordings:
+        for end in recording.graph.endpoints:
+            if end.name in OF_ROBOTS or end.type.startswith("rcl_interfaces/"):
+                continue
+            if end.from_course:
+                offered.add((end.kind, end.name))
+            elif end.kind in COUNTERPARTS:
+                received.add((COUNTERPARTS[end.kind], end.name))
+    names = sorted({name for kind, name in offered if kind in COUNTERPARTS.values()})
+    if float(score) < score.max or not names or offered & received:
+        return []
+    offers = f"what the course's programs offer: {', '.join(names)}"
+    return [f"full points, although its nodes use nothing of {offers}"]
+
+
 def outputs(score: Score, count: int) -> list[dict[str, Any]]:
     """A test cell's outputs, as Jupyter shows a score: pictures first, then the table."""
     bundles = []
