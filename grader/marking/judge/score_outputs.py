@@ -50,7 +50,7 @@ COUNTERPARTS = {
 }
 # Of every robot: a right program may drive without its sensors.
 OF_ROBOTS = {
-    *("/battery_state", "/bumper", "/clock", "/imu/data", "/joint_states", "/map", "/odom"),
+    *("/battery_state", "/bumper", "/clock", "/cmd_vel", "/imu/data", "/joint_states", "/map", "/odom"),
     *("/parameter_events", "/robot_description", "/rosout", "/scan", "/tf", "/tf_static"),
 }
 
