@@ -11,6 +11,7 @@ import yaml
 from mcap.reader import make_reader
 from mcap.records import Channel, Schema
 from mcap.writer import Writer
+from rosbag2_py.options import check_file_format
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.type_definitions import definition
@@ -83,6 +84,10 @@ class Bag:
     @property
     def files(self) -> list[Path]:
         """Its MCAP files, in order."""
+        try:
+            check_file_format(self.path)
+        except RuntimeError as error:
+            raise CliError(str(error)) from None
         found = sorted(self.path.glob("*.mcap")) if self.path.is_dir() else [self.path]
         if not found or not found[0].is_file():
             what = "has no .mcap file" if self.path.is_dir() else "is not there"

@@ -1,6 +1,7 @@
 """Bags that programs write and read with rosbag2_py, as in the official tutorials."""
 
 import os
+import sqlite3
 from pathlib import Path
 
 import pytest
@@ -247,14 +248,38 @@ def test_what_cannot_be_read_is_refused(tmp_path):
 def test_other_storages_and_formats_are_refused():
     reader = rosbag2_py.SequentialReader()
     storage = rosbag2_py.StorageOptions("bag", "sqlite3"), rosbag2_py.ConverterOptions()
-    assert refused(reader.open, *storage) == (
-        "No storage could be initialized: storage_id is 'sqlite3', and only 'mcap' is supported here."
-    )
+    for end in reader, rosbag2_py.SequentialWriter():
+        assert refused(end.open, *storage) == (
+            "No storage could be initialized: storage_id is 'sqlite3', and only 'mcap' is supported here. "
+            "Pass storage_id='mcap'."
+        )
     formats = rosbag2_py.StorageOptions("bag"), rosbag2_py.ConverterOptions("cdr", "json")
     assert refused(reader.open, *formats) == "Messages are 'cdr', and can't be converted to or from 'json'."
     assert rosbag2_py.get_default_storage_id() == "mcap"
     assert rosbag2_py.get_registered_readers() == rosbag2_py.get_registered_writers() == {"mcap"}
     assert rosbag2_py.get_registered_serializers() == set()
+
+
+@pytest.mark.parametrize("storage_id", ["", "mcap", "sqlite3"])
+def test_a_bag_in_sqlite_is_refused_with_the_command_that_converts_it(tmp_path, monkeypatch, capsys, storage_id):
+    monkeypatch.chdir(tmp_path)
+    file = Path("old/old_0.db3")
+    file.parent.mkdir()
+    sqlite3.connect(file).close()
+    Path("old/metadata.yaml").write_text("rosbag2_bagfile_information: {storage_identifier: sqlite3}")
+    for path in file.parent, file:
+        sentence = (
+            f"{path} is a bag in SQLite's format, and only bags in 'mcap' can be read here. Convert it where ROS is "
+            f"installed: `ros2 bag convert -i {path} -o out.yaml`, with `output_bags: [{{uri: new_bag, storage_id: "
+            "mcap, all: true}]` in out.yaml."
+        )
+        storage = rosbag2_py.StorageOptions(str(path), storage_id), rosbag2_py.ConverterOptions()
+        assert refused(rosbag2_py.SequentialReader().open, *storage) == sentence
+        for verb in "info", "play", "reindex":
+            if verb == "reindex" and path is file:
+                continue
+            ros2(f"bag {verb} {path}")
+            assert capsys.readouterr().out.splitlines()[-1] == sentence
 
 
 def test_types_are_found_by_their_names():

@@ -5,9 +5,15 @@ from __future__ import annotations
 import enum
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
 STORAGE = "mcap"
 FORMAT = "cdr"
+SQLITE = (
+    "{0} is a bag in SQLite's format, and only bags in '" + STORAGE + "' can be read here. Convert it where ROS is "
+    "installed: `ros2 bag convert -i {0} -o out.yaml`, with `output_bags: [{{uri: new_bag, storage_id: mcap, all: "
+    "true}}]` in out.yaml."
+)
 
 
 @dataclass
@@ -97,8 +103,14 @@ def check_storage(options: StorageOptions, converter: ConverterOptions) -> None:
     if options.storage_id not in ("", STORAGE):
         raise RuntimeError(
             f"No storage could be initialized: storage_id is '{options.storage_id}', and only '{STORAGE}' is "
-            "supported here."
+            f"supported here. Pass storage_id='{STORAGE}'."
         )
     for requested in (converter.input_serialization_format, converter.output_serialization_format):
         if requested not in ("", FORMAT):
             raise RuntimeError(f"Messages are '{FORMAT}', and can't be converted to or from '{requested}'.")
+
+
+def check_file_format(uri: Path) -> None:
+    """Raise RuntimeError if a bag is one of SQLite's files, or a folder of them."""
+    if uri.suffix == ".db3" or any(uri.glob("*.db3")):
+        raise RuntimeError(SQLITE.format(uri))

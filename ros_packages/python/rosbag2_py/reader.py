@@ -26,6 +26,7 @@ from rosbag2_py.options import (
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
+    check_file_format,
     check_storage,
 )
 
@@ -44,8 +45,9 @@ class SequentialReader:
 
     def open(self, storage_options: StorageOptions, converter_options: ConverterOptions) -> None:
         """Open a bag at its first message."""
-        check_storage(storage_options, converter_options)
         uri = Path(storage_options.uri)
+        check_file_format(uri)
+        check_storage(storage_options, converter_options)
         if MetadataIo().metadata_file_exists(str(uri)):
             self._metadata = MetadataIo().read_metadata(str(uri))
             if self._metadata.storage_identifier != STORAGE:
