@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import select
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 
 import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from sim.evidence import Endpoint, Recording
-from sim.evidence.qos import refusal, settings
+from sim.evidence.qos import offer, refusal, settings
 from sim.nanoseconds import EPOCH
 from sim.ros.engine.program import Process
 from sim.ros.play.player import FRAME, Player
@@ -71,23 +71,33 @@ class RecordedSystem(System):
         self, topics: dict[str, str], profile: QoSProfile | None = None
     ) -> Iterator[ReceivedMessage | None]:
         """As `System`: all recorded messages, at once."""
+        self._warn_of_incompatible(topics, profile)
         yield from self._published(0, topics, profile)
 
     def _published(
         self, first: int, topics: dict[str, str], profile: QoSProfile | None
     ) -> Iterator[ReceivedMessage]:
-        incompatible = self._incompatible(profile)
+        incompatible = {(end.node, end.name) for end, _ in self._incompatible(profile)}
         for message in self.recording.published[first:]:
             stamp, topic, sender = message.stamp, message.topic, message.sender
             if topic in topics and (sender, topic) not in incompatible:
                 yield ReceivedMessage(stamp, stamp, topic, message.type, message.raw, sender)
 
-    def _incompatible(self, profile: QoSProfile | None) -> set[tuple[str, str]]:
-        """Node and topic of the publishers whose QoS does not match this profile."""
+    def _incompatible(self, profile: QoSProfile | None) -> list[tuple[Endpoint, tuple[str, str, str]]]:
+        """The publishers whose QoS does not match this profile, each with what `refusal` returns."""
         if profile is None:
-            return set()
+            return []
         publishers, requested = self.recording.graph.publishers(), settings(profile)
-        return {(end.node, end.name) for end in publishers if refusal(end.qos, requested)}
+        return [(end, found) for end in publishers if (found := refusal(end.qos, requested))]
+
+    def _warn_of_incompatible(self, topics: Collection[str], profile: QoSProfile | None) -> None:
+        """Print why nothing arrives from a publisher, as rclpy does for a live one."""
+        for end, (policy, offered, requested) in self._incompatible(profile):
+            if end.name in topics:
+                self.print_line(
+                    f"WARNING: {end.node} publishes {end.name} {offer(policy, offered)}, but this command "
+                    f"requests {requested}: no messages will be received from it"
+                )
 
     def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
         """Always raises CliError, because no nodes are running."""
@@ -123,6 +133,7 @@ class PlayedSystem(RecordedSystem):
     ) -> Iterator[ReceivedMessage | None]:
         """As `System`, but only for the time limit, because other cells wait."""
         first = len(self.recording.published)
+        self._warn_of_incompatible(topics, profile)
         yield from self._latched(topics, profile)
         for _ in self._advance(TIME_LIMIT):
             messages = list(self._published(first, topics, profile))

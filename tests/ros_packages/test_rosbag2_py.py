@@ -261,7 +261,7 @@ def test_other_storages_and_formats_are_refused():
 
 
 @pytest.mark.parametrize("storage_id", ["", "mcap", "sqlite3"])
-def test_a_bag_in_sqlite_is_refused_with_the_command_that_converts_it(tmp_path, monkeypatch, capsys, storage_id):
+def test_a_bag_in_sqlite_is_refused_with_a_remedy(tmp_path, monkeypatch, capsys, storage_id):
     monkeypatch.chdir(tmp_path)
     file = Path("old/old_0.db3")
     file.parent.mkdir()
@@ -269,9 +269,9 @@ def test_a_bag_in_sqlite_is_refused_with_the_command_that_converts_it(tmp_path, 
     Path("old/metadata.yaml").write_text("rosbag2_bagfile_information: {storage_identifier: sqlite3}")
     for path in file.parent, file:
         sentence = (
-            f"{path} is a bag in SQLite's format, and only bags in 'mcap' can be read here. Convert it where ROS is "
-            f"installed: `ros2 bag convert -i {path} -o out.yaml`, with `output_bags: [{{uri: new_bag, storage_id: "
-            "mcap, all: true}]` in out.yaml."
+            f"{path} is a bag in SQLite's format, and only bags in 'mcap' can be read here. Convert it where "
+            f"ROS is installed: `ros2 bag convert -i {path} -o out.yaml`, with `output_bags: [{{uri: "
+            "new_bag, storage_id: mcap, all: true}]` in out.yaml."
         )
         storage = rosbag2_py.StorageOptions(str(path), storage_id), rosbag2_py.ConverterOptions()
         assert refused(rosbag2_py.SequentialReader().open, *storage) == sentence

@@ -10,9 +10,9 @@ from pathlib import Path
 STORAGE = "mcap"
 FORMAT = "cdr"
 SQLITE = (
-    "{0} is a bag in SQLite's format, and only bags in '" + STORAGE + "' can be read here. Convert it where ROS is "
-    "installed: `ros2 bag convert -i {0} -o out.yaml`, with `output_bags: [{{uri: new_bag, storage_id: mcap, all: "
-    "true}}]` in out.yaml."
+    "{0} is a bag in SQLite's format, and only bags in 'mcap' can be read here. Convert it where ROS is "
+    "installed: `ros2 bag convert -i {0} -o out.yaml`, with `output_bags: [{{uri: new_bag, storage_id: mcap, "
+    "all: true}}]` in out.yaml."
 )
 
 

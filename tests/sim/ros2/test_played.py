@@ -49,6 +49,14 @@ def playing(capsys, tmp_path, monkeypatch):
     made.stop()
 
 
+def test_echo_says_which_qos_does_not_match(playing):
+    assert playing("topic echo --qos-durability transient_local /place") == (
+        "WARNING: /talker publishes /place with durability volatile, but this command requests "
+        "transient_local: no messages will be received from it\n"
+        "No message arrived on /place within 5 s of the play.\n"
+    )
+
+
 def test_commands_that_change_the_system_match_the_official_tools(playing):
     for command in filter(CHANGES.match, OFFICIAL):
         expected = plain(OFFICIAL[command])

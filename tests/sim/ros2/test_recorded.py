@@ -99,7 +99,8 @@ def test_commands_that_need_running_nodes_are_refused(said, command):
         ("topic delay /greeting", "msg does not have header\n"),
         (
             "topic echo --once --qos-reliability reliable /place",
-            "No message arrived on /place in this run.\n",
+            "WARNING: /talker publishes /place with reliability best_effort, but this command requests "
+            "reliable: no messages will be received from it\nNo message arrived on /place in this run.\n",
         ),
         ("topic echo --once --qos-durability volatile --field data /greeting", "hello\n---\n"),
         ("topic echo --once --filter m.x>1 --field point /place", "x: 1.5\ny: 0.0\nz: 0.0\n---\n"),
