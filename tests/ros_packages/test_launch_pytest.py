@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 from sim import run
+from sim.absent_packages import explain
 from tests.patience import PATIENCE
 
 PREFIX = re.compile(r'^(failed on (setup|teardown) with ")?(Failed: )?')
@@ -427,3 +428,15 @@ def test_ready_to_test_does_nothing_in_another_launch(tmp_path, monkeypatch):
     service = LaunchService()
     service.include_launch_description(LaunchDescription([ReadyToTest()]))
     assert service.run() == 0
+
+
+@pytest.mark.parametrize("name", ["launch_testing", "launch_testing_ros.actions"])
+def test_a_test_that_imports_launch_testing_gets_the_sentence_of_a_run(tmp_path, name):
+    (tmp_path / "test_file.py").write_text(f"import {name}\n")
+    (tmp_path / "test_body.py").write_text(f"def test_it():\n    from {name} import x\n")
+    (tmp_path / "test_other.py").write_text("def test_it():\n    import nothing_of_this_name\n")
+    command = [sys.executable, "-m", "pytest", *OPTIONS, *PLUGIN, "--continue-on-collection-errors", "."]
+    out = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False).stdout
+    heading = re.escape(" What to do ")
+    found = re.findall(rf"^-+{heading}-+\n(.*)$", out, re.MULTILINE)
+    assert found == [explain(name.partition(".")[0])] * 2

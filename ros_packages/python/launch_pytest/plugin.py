@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections import defaultdict
+from collections.abc import Generator
 from types import FunctionType
 from typing import Any
 
@@ -13,6 +14,7 @@ from launch_pytest.fixtures import LAUNCHES, fixture_name
 from launch_pytest.marked_tests import run_test
 
 MARK = "launch"
+UNITTESTS = ("launch_testing", "launch_testing_ros")  # of other tests of launch files, which are not here
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -62,6 +64,34 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
     error = None if mark is None else _mark_error(item, mark)
     if error is not None:
         pytest.fail(error, pytrace=False)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """Advise where a file with tests imports launch_testing."""
+    report = yield
+    return _advise(report, report.call)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    call: pytest.CallInfo[None],
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Advise where a test imports launch_testing."""
+    return _advise((yield), call)
+
+
+def _advise(report: Any, call: pytest.CallInfo[Any] | None) -> Any:
+    error = call.excinfo.value if call is not None and call.excinfo is not None else None
+    error = (error and error.__cause__) or error  # pytest reports the error of an import as its own
+    name = str(getattr(error, "name", None)).partition(".")[0]
+    if isinstance(error, ModuleNotFoundError) and name in UNITTESTS:
+        sentence = (
+            f"`{name}` (tests of launch files) is a ROS package that the course does not include. "
+            "launch_pytest is here and does the same for pytest."
+        )
+        report.sections.append(("What to do", sentence))
+    return report
 
 
 @pytest.hookimpl(tryfirst=True)
