@@ -10,6 +10,7 @@ from typing import Any
 from nbformat.v4 import new_output
 
 MAX_TEXT_CHARS = 50_000  # of one text
+MAX_OUTPUT_CHARS = 20_000  # of what a cell prints, or of an error: one half is its beginning, one its end
 MAX_PAGE_CHARS = 1_000_000  # of all texts of a page
 OUTPUT = 500  # characters that an output counts for at least
 REPLAY = 40_000  # that a replay counts for: its player is in the page, too
@@ -24,18 +25,34 @@ def too_long(html: str) -> bool:
 
 
 def shorten(notebook: Any, resources: Any) -> tuple[Any, Any]:
-    """A preprocessor of nbconvert: leaves out texts that are too long, and outputs when the page is full."""
+    """A preprocessor of nbconvert: shortens long texts, and leaves out outputs when the page is full."""
     room = MAX_PAGE_CHARS
     for cell in notebook.cells:
         room -= len(cell.source)
         if len(cell.source) > MAX_TEXT_CHARS or room < 0:
             cell.source = f"# {TOO_LONG}" if cell.cell_type == "code" else TOO_LONG
         for number, output in enumerate(cell.get("outputs", ())):
+            _shorten_texts(output)
             room -= _cost(output)
             if room < 0:
                 cell.outputs[number:] = [new_output("stream", text=f"{TOO_LONG}\n")]
                 break
     return notebook, resources
+
+
+def _shorten_texts(output: Any) -> None:
+    if "text" in output:
+        output.text = _ends(output.text)
+    if "text/plain" in output.get("data", {}):
+        output.data["text/plain"] = _ends(output.data["text/plain"])
+    if "traceback" in output:
+        output.traceback = _ends("\n".join(output.traceback)).split("\n")
+
+
+def _ends(text: str) -> str:
+    """The beginning and the end of a text, with the number of characters between them."""
+    half, more = MAX_OUTPUT_CHARS // 2, len(text) - MAX_OUTPUT_CHARS
+    return text if more <= 0 else f"{text[:half]}\n[... {more:,} more characters ...]\n{text[-half:]}"
 
 
 def _cost(output: Any) -> int:

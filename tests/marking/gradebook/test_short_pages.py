@@ -3,7 +3,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_output, new_raw_cell
 
 from grader.marking.gradebook.safe_html import clean
-from grader.marking.gradebook.short_pages import MAX_PAGE_CHARS, MAX_TEXT_CHARS, TOO_LONG, shorten
+from grader.marking.gradebook.short_pages import MARKUP, MAX_PAGE_CHARS, MAX_TEXT_CHARS, TOO_LONG, shorten
 
 NOTE = new_output("stream", text=f"{TOO_LONG}\n")
 
@@ -36,8 +36,29 @@ def test_a_cell_too_long_to_be_colored_is_left_out():
     assert [cell.source for cell in cells] == [f"# {TOO_LONG}", TOO_LONG, TOO_LONG]
 
 
+def test_a_long_text_is_shortened_to_its_beginning_and_its_end():
+    lines = "".join(f"{number:06}\n" for number in range(200_000))
+    ends = f"{lines[:10_000]}\n[... 1,380,000 more characters ...]\n{lines[-10_000:]}"
+    [cell] = shortened(
+        new_code_cell(
+            "x",
+            outputs=[
+                new_output("stream", text=lines),
+                new_output("execute_result", {"text/plain": "y" * 400_000}),
+                new_output("error", ename="E", evalue="e", traceback=lines.split("\n")),
+                new_output("stream", text="the end\n"),
+            ],
+        )
+    )
+    printed, shown, error, last = cell.outputs
+    assert printed.text == "\n".join(error.traceback) == ends
+    line = "y" * 10_000
+    assert shown.data["text/plain"] == f"{line}\n[... 380,000 more characters ...]\n{line}"
+    assert last.text == "the end\n"
+
+
 def test_when_the_page_is_full_the_rest_is_left_out():
-    long = new_output("stream", text="x" * (MAX_PAGE_CHARS - 2000))
+    long = html("-" * ((MAX_PAGE_CHARS - 2000) // MARKUP))
     full = new_code_cell("x", outputs=[long, *[html("")] * 3])
     behind = new_code_cell("y", outputs=[html(""), html("")])
     first, last = shortened(full, behind)
