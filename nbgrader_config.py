@@ -50,6 +50,22 @@ c.Execute.startup_timeout = 600
 # A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
 c.Execute.timeout = 60
 c.Validator.Execute.timeout = 30
+
+
+def name_slow_cells(hook):
+    """A hook of Validate; `grader` takes a while to import, so other commands don't import it."""
+
+    def call(**about):
+        from grader.marking.release import slow_cells
+
+        getattr(slow_cells, hook)(**about)
+
+    return call
+
+
+# It names an answer cell that it stopped also where only the tests below are shown.
+c.Validator.Execute.on_cell_start = name_slow_cells("begin")
+c.Validator.Execute.on_cell_error = name_slow_cells("explain")
 # nbgrader gives no points for a test cell that writes to stderr, where log lines and warnings go. So in the
 # kernels that mark or validate, what goes to stderr shows on stdout.
 c.Execute.extra_arguments = ["--IPKernelApp.exec_lines=import sys; sys.stderr.name = 'stdout'"]

@@ -134,6 +134,23 @@ def test_validate_waits_less_than_marking(tmp_path, monkeypatch):
     assert "No reply from kernel before timeout" in result["failed"][0]["raw_error"]
 
 
+def test_validate_names_an_answer_cell_that_it_stopped(tmp_path, monkeypatch, capsys):
+    answer = nbformat.v4.new_code_cell("import time\ntime.sleep(60)\nBattery = 1", id="answer")
+    folder = course(tmp_path, answer, grade("test_battery", 1, "assert Battery"))
+    other = course(tmp_path / "other", grade("test_battery", 1, "assert Battery"))
+    config = configuration(monkeypatch, folder)
+    config.Validator.Execute.timeout = 5
+    notebook = Path("solutions", "01_tiny", "tiny.ipynb")
+    [failed] = Validator(config=config).validate(str(folder / notebook))["failed"]
+    assert failed["raw_error"].startswith(
+        "Validate stopped a cell that ran longer than its time limit. It begins with:\n    import time\n"
+        "What that cell defines can be missing below it. Marking allows more time.\n"
+    )
+    assert failed["raw_error"].endswith(": name 'Battery' is not defined")
+    [failed] = Validator(config=config).validate(str(other / notebook))["failed"]
+    assert "Validate" not in failed["raw_error"]
+
+
 def test_the_table_shows_points_per_exercise_and_the_pages():
     marks = [
         SampleMark("right", {"a": (2, 2), "long": (1.5, 1.5)}, Path("r.html")),
