@@ -25,6 +25,18 @@ def explain(name: str) -> str:
     return ""
 
 
+def explain_package(name: str) -> str:
+    """As `explain`, about a name that was looked up as a ROS package, which pip does not install."""
+    project = table()["pypi"].get(name)
+    if project is None:
+        return explain(name)
+    return (
+        f"The course has no ROS package `{name}`, and `%pip install {project}` installs none. If that "
+        f"installs a program `{name}`, start it by its name: `$(command '{name} FILE')` in XML or YAML, "
+        f'`Command(["{name} ", FILE])` in Python.'
+    )
+
+
 def _explain_ros(name: str, row: dict[str, Any]) -> str:
     sentences = [f"`{name}` ({row['about']}) is a ROS package that the course does not include."]
     if "instead" in row:

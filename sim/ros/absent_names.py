@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 
-from sim.absent_packages import explain
+from sim.absent_packages import explain, explain_package
 from sim.ros.packages import packages
 from sim.ros.workspaces import why_unavailable
 from sim.suggestions import closest_match
@@ -29,7 +29,8 @@ def explain_absent_name(error_type: str, text: str) -> str:
     reason = why_unavailable(found[1])
     if reason:
         return f"Package `{found[1]}`: {reason}"
-    explanation = explain(found[1])
+    is_package = error_type.startswith("PackageNotFound")
+    explanation = explain_package(found[1]) if is_package else explain(found[1])
     if not explanation and error_type == "ModuleNotFoundError":
         return _unknown_module(text)
     if explanation or error_type != "PackageNotFoundError":

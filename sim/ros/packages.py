@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from sim.absent_packages import explain
+from sim.absent_packages import explain_package
 from sim.ros import workspaces
 from sim.ros.bundled_programs import PROGRAMS, alternative, command, module_in_a_run
 from sim.ros.workspaces import INDEX, LAYOUT
@@ -179,7 +179,7 @@ def _first_line(file: Path) -> bytes:
 
 def why_no_package(package: str) -> str:
     """Why a package is not found: not sourced, known and not here, misspelt, or nowhere."""
-    reason = workspaces.why_unavailable(package) or explain(package)
+    reason = workspaces.why_unavailable(package) or explain_package(package)
     if reason:
         return reason
     near = closest_match(package, packages())

@@ -26,6 +26,11 @@ CV_BRIDGE = (
     "include. np.frombuffer(msg.data, np.uint8).reshape(msg.height, msg.width, -1) is the array of an rgb8, bgr8 "
     "or mono8 image."
 )
+XACRO = (
+    "The course has no ROS package `xacro`, and `%pip install xacro` installs none. If that installs a program "
+    "`xacro`, start it by its name: `$(command 'xacro FILE')` in XML or YAML, `Command([\"xacro \", FILE])` in "
+    "Python."
+)
 NAV2 = "`nav2_bringup` (starts Nav2) is a ROS package that the course does not include."
 
 
@@ -81,6 +86,8 @@ def test_a_node_that_imports_one_gets_the_explanation():
         "sourced: check its spelling.",
         'LogInfo(msg=Command(["xacro ", "robot.urdf.xacro"]))': SCIPY.replace("scipy", "xacro"),
         'LogInfo(msg=get_package_share_directory("nav2_bringup"))': NAV2,
+        'LogInfo(msg=get_package_share_directory("xacro"))': XACRO,
+        'Node(package="xacro", executable="xacro")': XACRO,
     }.items(),
 )
 def test_packages_and_commands_in_launch_files_are_explained(entity, hint, tmp_path):
@@ -97,6 +104,8 @@ def test_packages_and_commands_in_launch_files_are_explained(entity, hint, tmp_p
 
 
 def test_ros2_run_explains_a_package():
+    with pytest.raises(PackageNotFound, match=f"^Package 'xacro' not found: {re.escape(XACRO)}$"):
+        executable("xacro", "xacro")
     with pytest.raises(PackageNotFound, match=f"^Package 'nav2_bringup' not found: {re.escape(NAV2)}$"):
         executable("nav2_bringup", "x")
 
@@ -149,10 +158,11 @@ def test_ros2_launch_explains_a_package(tmp_path):
     ("inside", "hint"),
     {
         '<node pkg="demo_nodes_py" exec="talkr"/>': "Write `talker` in the place of `talkr`.",
-        '<node pkg="rqt_graph" exec="rqt_graph"/>': "The course has no such program. Its error says what to use in "
+        '<node pkg="tf2_tools" exec="view_frames"/>': "The course has no such program. Its error says what to use in "
         "its place.",
         '<let name="x"/>': "`let` needs `value`, on the line of the launch file that the error names.",
         "<log message=\"$(command 'xacro a')\"/>": SCIPY.replace("scipy", "xacro"),
+        "<log message=\"$(command '$(exec-in-pkg xacro xacro) a')\"/>": XACRO,
         '<include file="$(dirname)/ohter.launch.xml"/>': "There is no file `FOLDER/ohter.launch.xml`. Did you mean "
         "'other.launch.xml'?",
         '<include file="/share/a/launch/b.launch.py"/>': "There is no file `/share/a/launch/b.launch.py`. A launch "
