@@ -57,18 +57,12 @@ OF_ROBOTS = {
 
 def unused_offers(score: Score) -> list[str]:
     """A flag for full points of nodes that receive nothing from the course's programs, though they send."""
-    offered: set[tuple[str, str]] = set()
-    received: set[tuple[str, str]] = set()
-    for recording in score.recordings:
-        for end in recording.graph.endpoints:
-            if end.name in OF_ROBOTS or end.type.startswith("rcl_interfaces/"):
-                continue
-            if end.from_course:
-                offered.add((end.kind, end.name))
-            elif end.kind in COUNTERPARTS:
-                received.add((COUNTERPARTS[end.kind], end.name))
-    names = sorted({name for kind, name in offered if kind in COUNTERPARTS.values()})
-    if float(score) < score.max or not names or offered & received:
+    ends = [end for recording in score.recordings for end in recording.graph.endpoints]
+    ends = [end for end in ends if not end.type.startswith("rcl_interfaces/")]
+    offered = {(end.kind, end.name) for end in ends if end.from_course and end.kind in COUNTERPARTS.values()}
+    used = {(COUNTERPARTS.get(end.kind), end.name) for end in ends if not end.from_course}
+    names = sorted({name for _, name in offered} - OF_ROBOTS)
+    if float(score) < score.max or not names or offered & used:
         return []
     offers = f"what the course's programs offer: {', '.join(names)}"
     return [f"full points, although its nodes use nothing of {offers}"]
