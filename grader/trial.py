@@ -39,7 +39,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         for warning in build_warnings(found):
             print(f"The build warns: {warning}")
         chosen, seed = exercise.runs()[scenario]
-        recording = chosen.run(source, seed)
+        recording = chosen.run(source, seed, found)
         tell(recording)
         return recording
     except CannotBuildHere:

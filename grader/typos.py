@@ -1,6 +1,6 @@
 """Typos in a name, a number's type or a topic's type: the corrected program earns half of the points.
 
-Names are those of topics, services, actions and parameters.
+Names are those of topics, services, actions and parameters; in terminals, set-up lines count, too.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from grader.checks.typed import failed_lines
 from grader.checks.verdicts import Verdict
 from grader.diagnosis.names import misspelt
 from grader.diagnosis.other_types import conflict
@@ -22,8 +23,8 @@ from sim.evidence import CallbackError, Message, Recording
 
 WORTH = 0.5  # of the points
 MAX_CHAINED = 3  # each may hide the next: a name, a type, a number
-OF_NUMBERS, OF_PARAMETERS = "numbers", "parameters"
-FORGIVEN = {OF_NUMBERS, OF_PARAMETERS}
+OF_NUMBERS, OF_PARAMETERS, OF_LINES = "numbers", "parameters", "lines"
+FORGIVEN = {OF_NUMBERS, OF_PARAMETERS, OF_LINES}
 CORRECTED_HINT = "Graded as if the typo above were fixed, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
@@ -43,6 +44,8 @@ def typos_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
     of_values = any(map(_is_of_a_value, recording.errors))
     if of_values or (failed and (misspelt_parameter(recording) or whole_parameter(recording))):
         typos.append(OF_PARAMETERS)
+    if failed and failed_lines(recording):
+        typos.append(OF_LINES)
     return list(dict.fromkeys(typos))
 
 

@@ -40,7 +40,7 @@ class Camera(Node):
             return
         pixels = picture(self.pose, self.scan)
         image = Image(height=HEIGHT, width=WIDTH, encoding="rgb8", step=3 * WIDTH, data=pixels.tobytes())
-        image.header.stamp, image.header.frame_id = self.scan.header.stamp, "camera_optical"
+        image.header.stamp, image.header.frame_id = self.scan.header.stamp, "camera_optical_frame"
         self.images.publish(image)
 
 
@@ -49,7 +49,8 @@ def picture(pose: tuple[float, float, float], scan: LaserScan) -> np.ndarray:
     pixels = np.empty((HEIGHT, WIDTH, 3), np.uint8)
     pixels[: HEIGHT // 2], pixels[HEIGHT // 2 :] = SKY, FLOOR
     for column in range(WIDTH):
-        angle = VIEW * (0.5 - (column + 0.5) / WIDTH)  # to the left of straight ahead
+        # To the left of straight ahead. An image is flat: the tangent grows evenly.
+        angle = math.atan((1 - 2 * (column + 0.5) / WIDTH) * math.tan(VIEW / 2))
         ray = round((angle - scan.angle_min) / scan.angle_increment) % len(scan.ranges)
         distance = scan.ranges[ray] if math.isfinite(scan.ranges[ray]) else scan.range_max
         _draw(pixels, column, distance * math.cos(angle), WALL)

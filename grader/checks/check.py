@@ -42,6 +42,8 @@ class Missed(Exception):
     measured: with a credit, what checks that come after this one are handed.
     typo: a name that was misspelt, and the right one; or the type Float32 where Float64 is wanted, or
         the other way round.
+    because: earlier checks of which one may be the cause; if one failed, the check is skipped, and not
+        charged as a second mistake.
     unsafe: the robot did what may hurt a person: then the exercise gives no more than a part of its points.
     """
 
@@ -57,12 +59,13 @@ class Missed(Exception):
         measured: Any = None,
         typo: tuple[str, str] | None = None,
         unsafe: bool = False,
+        because: tuple[Check, ...] = (),
         about: tuple[Any, ...] = (),
     ) -> None:
         super().__init__(f"expected {expected}; saw {saw}")
         self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
         self.credit, self.picture, self.measured = fraction(credit), picture, measured
-        self.typo, self.unsafe, self.about = typo, unsafe, about
+        self.typo, self.unsafe, self.about, self.because = typo, unsafe, about, because
 
 
 @contextmanager

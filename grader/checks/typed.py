@@ -17,7 +17,8 @@ HINTS = {
     "command not found": "Check the first word of that line, letter by letter.",
     "it is not built|colcon build makes it": "Type colcon build in ws first, and then source what it built.",
     "not typed in this terminal": "Each terminal is set up by itself: source install/setup.bash there, too.",
-    "ROS domain": "The robot is in domain 42: `export ROS_DOMAIN_ID=42` in each terminal that uses ros2.",
+    "ROS domain": "`python -m sim` puts the robot in domain 42, or in that of its option --domain, whatever "
+    "ROS_DOMAIN_ID is: export its number in each terminal that uses ros2.",
     "Summary: 0 packages": "Is this terminal in ws? And compare the package's name with the task.",
     "colcon build is": "Leave that line out: only what the programs do is marked.",
     "needs quotes": "A value with spaces is one word only in quotes.",

@@ -20,6 +20,7 @@ Status = Literal["passed", "failed", "skipped", "broken"]
 WORST_FIRST: tuple[Status, ...] = ("failed", "skipped", "broken", "passed")  # where the credit is the same
 
 BROKEN_HINT = "Nothing for you to do: this check itself has a bug. Your instructor decides on its points."
+FIX_FIRST = "Not graded yet: fix this first: “{}”"
 EXPLAINED_BY_FAULT = "Not graded: the error above explains it."
 EXPLAINED_BY_SPOOFING = "Not graded: it isn't clear which program sent what; see above."
 EXPLAINED_BY_HINT = "Not graded: the hint above explains it."
@@ -124,7 +125,7 @@ class _Judging:
         judged = [before for before in item.after if before.name in self.verdicts]
         unmet = next((before for before in judged if self.verdicts[before.name].credit == 0.0), None)
         if unmet:
-            return skipped(item, f"Not graded yet: fix this first: “{unmet.sentence}”")
+            return skipped(item, FIX_FIRST.format(unmet.sentence))
         if item.after and self.intrusions:
             return skipped(item, EXPLAINED_BY_SPOOFING)
         try:
@@ -150,6 +151,9 @@ class _Judging:
         return [self.measured[before.name] for before in item.after] if item.takes_measured else []
 
     def _missed(self, item: Check, missed: Missed) -> Verdict:
+        for cause in missed.because:
+            if cause.name in self.verdicts and self.verdicts[cause.name].status == "failed":
+                return skipped(item, FIX_FIRST.format(cause.sentence))
         cause = "" if missed.hint else explain(self.recording)
         if missed.credit == 0.0 and self.fault and not missed.unsafe:
             return replace(skipped(item, EXPLAINED_BY_FAULT), typo=missed.typo)

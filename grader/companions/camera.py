@@ -13,6 +13,7 @@ from sensor_msgs.msg import Image
 
 FIRST, PERIOD = 1.0, 0.25  # s
 HEIGHT = 48  # rows
+OPTICAL = "camera_optical_frame"  # x to the right, y down, z ahead, as REP 103 has it
 BACKGROUND = (205, 215, 225), (120, 120, 115)  # the wall and the floor
 RED = 205, 35, 35
 OTHERS = {
@@ -44,7 +45,6 @@ class PostCamera(Node):
     def __init__(self, seed: int, layout: Format) -> None:
         super().__init__("camera")
         self.draw, self.layout = random.Random(f"camera {seed}"), layout
-        self.frame = self.draw.choice(("camera_link", "front_camera", "head_camera"))
         self.numbers = np.random.default_rng(self.draw.getrandbits(32))
         self.places = itertools.chain.from_iterable(iter(self._shuffled, None))
         self.publisher = self.create_publisher(Image, "/image", qos_profile_sensor_data)
@@ -62,7 +62,7 @@ class PostCamera(Node):
         """Publish the next image."""
         pixels = picture(next(self.places), self.layout.width, self.draw, self.numbers)
         image = message(pixels, self.layout)
-        image.header.stamp, image.header.frame_id = self.get_clock().now().to_msg(), self.frame
+        image.header.stamp, image.header.frame_id = self.get_clock().now().to_msg(), OPTICAL
         self.publisher.publish(image)
 
 

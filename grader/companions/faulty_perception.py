@@ -25,7 +25,7 @@ LASTS = 2.5  # s; each fault, and each person who is not really there
 CLOSE, FARTHER = 1.1, 2.0  # m; how far these persons are
 ALONE = 2.8  # m; no person is nearer when a fault begins
 DRIVES, FAST = 0.8, 0.2  # s and m/s of driving before the next fault
-FAULTS = "silent", "stale", "no people", "close", "farther"
+FAULTS = "silent", "stale pose", "stale people", "no people", "close", "farther"
 
 
 class Localized(Node):
@@ -48,9 +48,9 @@ class Localized(Node):
 class FaultyPerception(Localized):
     """Perception for the student's control, with the stamps of scans. It knows the warehouse and its boxes.
 
-    Once the robot drives, and no person is near, the next fault comes: it publishes nothing, or its stamps no
-    longer change, or it publishes the robot's pose but no people, or it reports a person who isn't there,
-    close or not.
+    Once the robot drives, and no person is near, the next fault comes: it publishes nothing, or the stamps on
+    one of the topics no longer change, or it publishes the robot's pose but no people, or it reports a person
+    who isn't there, close or not.
     """
 
     def __init__(self, seed: int) -> None:
@@ -72,17 +72,19 @@ class FaultyPerception(Localized):
             return
         people, boxes = self.seen(scan)
         self.change(since_start(scan.header.stamp), people)
-        if self.fault == "stale":
-            scan.header.stamp = self.stamp
-        self.stamp = scan.header.stamp
+        if not self.fault.startswith("stale"):
+            self.stamp = scan.header.stamp
+        of_pose, of_people = (
+            self.stamp if self.fault == f"stale {part}" else scan.header.stamp for part in ("pose", "people")
+        )
         if self.fault == "silent":
             return
         if self.fault in ("close", "farther"):
             people = [*people, self.ghost(CLOSE if self.fault == "close" else FARTHER)]
         if self.fault != "no people":
-            self.obstacles_pub.publish(listed(self.stamp, [*people, *boxes]))
-            self.people_pub.publish(listed(self.stamp, people))
-        self.pose_pub.publish(stamped(self.stamp, *self.pose))
+            self.obstacles_pub.publish(listed(of_people, [*people, *boxes]))
+            self.people_pub.publish(listed(of_people, people))
+        self.pose_pub.publish(stamped(of_pose, *self.pose))
 
     def seen(self, scan: LaserScan) -> tuple[list[Point], list[Point]]:
         """Return points of people, and of boxes that may be pushed."""

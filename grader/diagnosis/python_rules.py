@@ -57,6 +57,11 @@ PYTHON_RULES = (
         "For a pause, await a future that a timer completes, or let a timer call the next step.",
     ),
     Rule(
+        "RuntimeError", r"asyncio\.run\(\) cannot be called from a running event loop",
+        "asyncio's event loop is already running, and there is only one in a thread. Start a task in it: "
+        "`asyncio.create_task(...)`, which returns at once.",
+    ),
+    Rule(
         "RuntimeError", r"await wasn't used with future",
         "rclpy runs this coroutine, and can't await an asyncio future. Start an asyncio task in the "
         "callback, `asyncio.create_task(...)`, and return at once.",

@@ -56,6 +56,11 @@ SENSOR_RULES = (
         "clock_type=self.get_clock().clock_type)`; `Time.from_msg(stamp)` doesn't need it.",
     ),
     Rule(
+        "AssertionError", r"The 'level' field must be of type 'bytes'",
+        "The level of a DiagnosticStatus is a byte, not a number: take its constants, such as "
+        "`DiagnosticStatus.OK` and `DiagnosticStatus.WARN`.",
+    ),
+    Rule(
         "AssertionError", r"The '(\w+)' field must be a sub message of type '(Time|Duration)'",
         "`{0}` is itself a message: `.to_msg()` converts a {1} into one, as in "
         "`Duration(seconds=1.5).to_msg()`.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import functools
 import pkgutil
 import re
@@ -15,6 +16,9 @@ Correction = Callable[[Sources], Mapping[str, bytes]]
 
 MAIN = "main"
 _POINT = re.compile(r"""(["'])([\w-]+)(\s*=\s*)([A-Za-z_]\w*(?:\.\w+)+)(?::(\w+))?\1""")
+_JOINED = re.compile(r"""(=\s*[\w.:]+["'])(\s*["'][\w-]+\s*=)""")
+_PAIRS = re.compile(r"(\))(\s*\n\s*\()")
+_ARGUMENTS = re.compile(r"""([\])'"\w])(\s*\n\s*\w+=)""")
 _EXECUTABLE = re.compile(r"""(executable\s*=\s*["'])([\w-]+)(?=["'])""")
 
 
@@ -25,6 +29,24 @@ def entry_points(sources: Sources, commands: Iterable[str] = ()) -> dict[str, by
     """
     complete = functools.partial(_complete, sources, list(commands))
     return _replaced(sources, "/setup.py", _POINT, complete)
+
+
+def commas(sources: Sources) -> dict[str, bytes]:
+    """Commas that are missing in setup.py: between entry points, between pairs, and after an argument."""
+    return {path: _with_commas(text).encode() for path, text in _texts(sources, "/setup.py")}
+
+
+def _with_commas(text: str) -> str:
+    text = _PAIRS.sub(r"\1,\2", _JOINED.sub(r"\1,\2", text))
+    return text if _can_be_parsed(text) else _ARGUMENTS.sub(r"\1,\2", text)
+
+
+def _can_be_parsed(text: str) -> bool:
+    try:
+        ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
 
 
 def executables(sources: Sources) -> dict[str, bytes]:

@@ -35,6 +35,14 @@ def short_sighted(world: World) -> World:
     return replace(world, lidar=SHORT)
 
 
+def past_a_post(seed: int) -> World:
+    """Return a hall of 4 m with a post beside the robot's way: too far aside to be hit."""
+    draw = random.Random(f"past_a_post {seed}")
+    x, y = draw.uniform(1.6, 2.0), draw.choice((-1.0, 1.0)) * draw.uniform(0.6, 0.8)
+    card, post = "A hall with a post.", Circle(round(x, 2), round(y, 2), 0.1)
+    return walled("past_a_post", seed, (-2.5, -2.0, 4.0, 2.0), card, start=(0.0, 0.0, 0.0), circles=(post,))
+
+
 def long_hall(seed: int) -> World:
     """Return a hall of 18 m, for long drives straight ahead."""
     left = round(-1.0 - random.Random(f"long_hall {seed}").uniform(0.0, 0.5), 2)
@@ -58,6 +66,20 @@ def gallery_from_the_wall(seed: int) -> World:
     return replace(world, start=(x, AT_THE_WALL, yaw), lidar=TOO_CLOSE)
 
 
+def screened(seed: int) -> World:
+    """Return a room with a screen before the goal. The end that is nearer to the goal is the longer way."""
+    draw = random.Random(f"screened {seed}")
+    near, far, aside, ahead, behind = (
+        round(draw.uniform(*limits), 2)
+        for limits in ((1.1, 1.3), (1.45, 1.65), (1.6, 1.9), (3.3, 3.6), (0.6, 0.9))
+    )
+    side = draw.choice((-1.0, 1.0))
+    screen = Box(ahead, 2.5 + side * (far - near) / 2, 0.0, 0.1, far + near)
+    start, goal = (0.6, 2.5 + side * aside, 0.0), (ahead + behind, 2.5)
+    card = "A room with a screen."
+    return walled("screened", seed, (0.0, 0.0, 5.0, 5.0), card, start=start, goal=goal, boxes=(screen,))
+
+
 def furnished_room(seed: int) -> World:
     """Return a room with boxes and pillars."""
     return World.generate("room", seed=seed, boxes=3, circles=2)
@@ -78,8 +100,10 @@ def free_start(seed: int) -> World:
 def world_of(kind: str, seed: int) -> World:
     """Return a room, a field of clutter or a maze, with start and goal. The maze is of 5 by 5 cells.
 
-    kind: room, clutter, maze; noisy: a room whose lidar is as bad as a cheap one.
+    kind: room, clutter, maze; noisy: a room whose lidar is as bad as a cheap one; screened.
     """
+    if kind == "screened":
+        return screened(seed)
     if kind == "maze":
         return World.generate("maze", seed=seed, columns=5, rows=5, loops=0.1)
     if kind == "noisy":

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from sim.evidence.graph import Endpoint, Graph
 from sim.evidence.qos import offer, refusal
+from sim.evidence.rows import CLI_NAME
 from sim.suggestions import closest_ros_name, describe_difference
 
 # Kinds of ends: the offering one, the requesting one, and what connects them.
@@ -62,8 +63,13 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
 
 
 def name_difference(given: Endpoint, wanted: Endpoint) -> str:
-    """Return a sentence on how the names of two ends differ; that in a program of the course is right."""
-    wrong, right = (wanted, given) if given.from_course and not wanted.from_course else (given, wanted)
+    """Return a sentence on how the names of two ends differ.
+
+    The name in a program of the course is right, and that in a ros2 command is wrong.
+    """
+    is_typed = wanted.node.startswith(f"/{CLI_NAME}")
+    wanted_is_wrong = is_typed or (given.from_course and not wanted.from_course)
+    wrong, right = (wanted, given) if wanted_is_wrong else (given, wanted)
     return describe_difference(wrong.name, right.name)
 
 

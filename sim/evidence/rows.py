@@ -103,6 +103,7 @@ class ParameterName(NamedTuple):
     declared: bool
 
 
+CLI_NAME = "_ros2cli"  # of the node of a ros2 command
 BUNDLED = "bundled"  # it belongs to a program of a ROS package that the course includes, such as turtlesim
 SPUN = "spun"  # an executor has looked at its callbacks
 TAKEN_OVER = "taken over"  # a second executor took it away from one that spins

@@ -17,11 +17,12 @@ from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
 from sim.evidence import Endpoint
+from sim.evidence.rows import CLI_NAME
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.suggestions import closest_match
 
 HIDDEN = "_"  # prefix of hidden names, which are shown only on request
-OWN_NAME = "_ros2cli"  # of these commands' own nodes
+OWN_NAME = CLI_NAME  # of these commands' own nodes
 _numbers = count(1)
 SERVICE_TIMEOUT = 5.0  # s until a service must be available, as in the official tools
 POLL = 0.1  # s

@@ -20,6 +20,7 @@ from sim.ros.launching.respawned import interrupt
 from sim.ros.workspaces import INDEX
 from sim.ros2.cli_program import execute_words
 from sim.ros2.domains import COURSE_DOMAIN
+from sim.ros2.typed_corrections import corrected
 from sim.ros2.typed_lines import InvalidLine, Line, lines_of, words_of
 from sim.suggestions import closest_match
 
@@ -28,9 +29,10 @@ SETUP = re.compile(rf"(?:.*/)?(?<!\b{WORKSPACE}/){WORKSPACE}/install/(?:local_)?
 OTHER_SETUP = re.compile(r"/opt/ros/\w+/setup\.\w+|.*/bin/activate")
 CTRL_C = re.compile(r"ctrl\W?c(?:\s+after\s+(\d+(?:\.\d+)?)\s*s?)?", re.IGNORECASE)
 ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
-ROBOT = re.compile(r"python\S* -m sim\b.*")
+ROBOT = re.compile(r"python\S* -m sim\b(?:.*\s--domain[ =](\d+))?.*")
 ALONE = "interface", "pkg"  # commands of ros2 that look for no node
-OF_PACKAGES = "launch", "pkg", "run"
+OF_PROGRAMS = "launch", "run"
+OF_PACKAGES = *OF_PROGRAMS, "pkg"
 SELECT = re.compile(r"--packages-(?:select|up-to)")
 TYPING, LONG = 1.0, 10.0  # s: for each line; until a wait is reported
 
@@ -39,7 +41,8 @@ TYPING, LONG = 1.0, 10.0  # s: for each line; until a wait is reported
 class Terminal:
     """A terminal: its folder and variables, and the program that was started there last, by which line.
 
-    robot: it is `python -m sim`, which needs no program: the run has its robot.
+    lasts: it is one that a person leaves running. robot: it is `python -m sim`, which needs no program: the
+    run has its robot.
     """
 
     folder: str = ""
@@ -47,6 +50,7 @@ class Terminal:
     sourced: bool = False
     program: Any = None
     line: int = 0
+    lasts: bool = False
     robot: bool = False
 
 
@@ -70,8 +74,9 @@ class TypedSession:
     def __init__(self, prefix: Path) -> None:
         self._run = engine()
         self._spec = self._run.current.process.spec
+        self._prefix = prefix
         self._packages = {path.name for path in (prefix / INDEX / "packages").glob("*")}
-        self._built = False
+        self._built, self._domain = False, str(COURSE_DOMAIN)
         self._commands: dict[str, Callable[[Line, Terminal, list[str]], None]] = {
             "cd": self._cd,
             "source": self._source,
@@ -86,6 +91,7 @@ class TypedSession:
     def type(self, lines: list[Line]) -> None:
         """Type these lines, and wait until all programs have ended."""
         used: dict[str, Terminal] = {}
+        lines = list(corrected(lines, self._prefix)) if self._spec.lenient else lines
         for line in lines:
             self._wait(TYPING)
             self._type(line, used.setdefault(line.terminal, Terminal()))
@@ -110,8 +116,8 @@ class TypedSession:
         print(f"terminal {line.terminal}, line {line.number} $ {line.text}")
 
     def _execute(self, line: Line, terminal: Terminal) -> None:
-        if ROBOT.fullmatch(line.text):
-            terminal.robot = True
+        if started := ROBOT.fullmatch(line.text):
+            terminal.robot, self._domain = True, started[1] or str(COURSE_DOMAIN)
             return
         words, before = words_of(line.text), terminal.variables
         while words and ASSIGNMENT.fullmatch(words[0]):
@@ -149,6 +155,8 @@ class TypedSession:
             self._show(line)
             print(f"line {terminal.line} is still running in terminal {line.terminal}")
             _report_failure(line)
+            if not terminal.lasts:  # it waits for what isn't there, or goes on: a person ends it
+                self._interrupt(terminal)
             self._wait_for_end(terminal)
 
     def _interrupt(self, terminal: Terminal) -> None:
@@ -208,7 +216,7 @@ class TypedSession:
                 _report_failure(line)
             return None
 
-        ros2.bundled, terminal.line = True, line.number
+        ros2.bundled, terminal.line, terminal.lasts = True, line.number, (*words, "")[1] in OF_PROGRAMS
         terminal.program = self._run.start(replace(spec, target=ros2, arguments=()))
 
     def _require_package(self, terminal: Terminal, words: list[str]) -> None:
@@ -222,10 +230,10 @@ class TypedSession:
     def _require_domain(self, terminal: Terminal, words: list[str]) -> None:
         """Raise InvalidLine if the command would look for nodes where the robot is not."""
         domain = terminal.variables.get("ROS_DOMAIN_ID") or "0"
-        if len(words) > 1 and words[1] not in ALONE and domain != str(COURSE_DOMAIN):
+        if len(words) > 1 and words[1] not in ALONE and domain != self._domain:
             raise InvalidLine(
-                f"There are no nodes on ROS domain {domain}, but on {COURSE_DOMAIN}:"
-                f" export ROS_DOMAIN_ID={COURSE_DOMAIN}"
+                f"There are no nodes on ROS domain {domain}, but on {self._domain}:"
+                f" export ROS_DOMAIN_ID={self._domain}"
             )
 
 

@@ -52,6 +52,11 @@ class ContactLog:
         self._touching = {shape: index for index, (shape, _) in enumerate(ongoing)}
 
     @property
+    def is_touched(self) -> bool:
+        """Whether something touches the robot now."""
+        return bool(self._touching)
+
+    @property
     def touching_sides(self) -> frozenset[str]:
         """The sides of the robot that are in contact now."""
         return frozenset(self._side(*self._contact_point(shape)) for shape in self._touching)

@@ -12,6 +12,7 @@ from sim.world.contacts import Contact, ContactLog
 from sim.world.drive import Drive
 from sim.world.imu import Imu, ImuReading
 from sim.world.lidar import Lidar, Scan
+from sim.world.odometry_error import OdometryError
 from sim.world.robot import DT, Pose, wrap
 from sim.world.world import World
 
@@ -39,6 +40,7 @@ class MobileRobot(Drive):
     Attributes:
         name: "robot" for the first one; for any other its name in the world, which is its ROS namespace.
         last_scan: its latest lidar scan; None before the first one.
+        odometry_error: how far its odometry may be off.
         battery: its battery; None if the world's robots have none.
     """
 
@@ -55,6 +57,7 @@ class MobileRobot(Drive):
         self.update_imu = self._imu.update if self._imu else None
         self.battery = Battery(world.battery, world.chargers[name]) if world.battery else None
         self._lever, self._steps = world.robot.track_width / 2, 0
+        self.odometry_error = OdometryError()
 
     @property
     def pose(self) -> Pose:
@@ -77,6 +80,11 @@ class MobileRobot(Drive):
         super().command(v, w)
         if self.battery and self.battery.is_empty:
             super().command(0.0, 0.0)
+
+    def roll(self) -> None:
+        """As `Drive.roll`, with what is lost while something touches the robot."""
+        self.odometry_error.update(self._v, self.log.is_touched)
+        super().roll()
 
     def update_battery(self) -> None:
         """Discharge or charge the battery; call after each step of the space."""

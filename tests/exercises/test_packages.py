@@ -13,7 +13,7 @@ from grader.workspace.package import PackageRun
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import executed
 from tests.students.packages.greeter import RIGHT
-from tests.students.workspaces import Workspace
+from tests.students.workspaces import Workspace, changed
 
 
 class TestPackages(Assignment):
@@ -97,6 +97,12 @@ def test_warnings_of_a_build_are_printed_beside_the_notebook(monkeypatch, capsys
     monkeypatch.setattr(building, "build", lambda _: Built(output=output))
     packages.see(packages.greeter, Workspace(__name__, RIGHT))
     assert capsys.readouterr().out.startswith("The build warns: Unknown distribution option: 'title'\n")
+
+
+def test_the_look_at_a_package_has_the_hints_of_the_check(capsys):
+    files = changed(RIGHT, "greeter/setup.py", "greeter.hello:main", "greeter.hello")
+    packages.see(packages.greeter, Workspace(__name__, files))
+    assert "Is it an entry point without a function in setup.py?" in capsys.readouterr().out
 
 
 def test_what_can_not_be_built_is_reported_beside_the_notebook(tmp_path, capsys):

@@ -50,6 +50,16 @@ def serving(server):
 def shared():
     return LaunchDescription([python("import time; time.sleep(1000)")])
 
+@launch_pytest.fixture
+def yielding(server):
+    yield LaunchDescription([server])
+    assert server.return_code is not None  # the launch is over
+
+@pytest.mark.launch(fixture=yielding)
+def test_a_fixture_that_yields(server, launch_context):
+    process_tools.assert_output_sync(launch_context, server, lambda text: text == "up\\n", timeout=100)
+    assert server.return_code is None
+
 @launch_pytest.fixture(name="late")
 def when_up(request):
     server = python("import time; print('up', flush=True); time.sleep(1000)")
@@ -227,10 +237,10 @@ def test_error_output(launch_context):
     program = python("", cached_output=True)
     process_tools.assert_stderr_sync(launch_context, program, validate, timeout=0.01)
 
-def test_generator_fixture():
+def test_asynchronous_fixture():
     with pytest.raises(TypeError) as error:
         @launch_pytest.fixture
-        def description():
+        async def description():
             yield
     raise error.value
 """
@@ -285,9 +295,9 @@ MESSAGES = {
     ),
     "test_output": ("AssertionError: is_ready does not accept the process's stdout, which is ''"),
     "test_error_output": ("AssertionError: nothing on stderr"),
-    "test_generator_fixture": (
-        "TypeError: launch_pytest.fixture needs a function that returns a launch description: "
-        "description is a generator or a coroutine function."
+    "test_asynchronous_fixture": (
+        "TypeError: launch_pytest.fixture needs a function that returns or yields a launch description: "
+        "description is asynchronous."
     ),
 }
 IN_A_RUN = """
@@ -356,7 +366,7 @@ def _message(case: ElementTree.Element) -> str:
 def test_tests_of_all_kinds_run_beside_real_processes_and_after_them(outcomes):
     found = outcomes(RIGHT, *OPTIONS, *PLUGIN)
     assert {name: message for name, message in found.items() if message} == {}
-    assert len(found) == 11
+    assert len(found) == 12
 
 
 def test_each_mistake_is_explained(outcomes):

@@ -194,6 +194,15 @@ def test_an_incomplete_joint_state_is_ignored_with_upstreams_line(states, line):
         '<robot><link name="a"/><link name="b"/></robot>': "Two root links found: [a] and [b]",
         one_joint("spring", "b"): "Joint [j] has no known type [spring]",
         one_joint("revolute", "b"): "Joint [j] is of type REVOLUTE but it does not specify limits",
+        one_joint("revolute", "b", '<limit lower="-1" upper="1" velocity="2"/>'): (
+            "joint limit: no effort: the <limit> of joint [j] needs it"
+        ),
+        one_joint("continuous", "b", '<limit effort="2"/>'): (
+            "joint limit: no velocity: the <limit> of joint [j] needs it"
+        ),
+        one_joint("prismatic", "b", '<limit upper="1 m" effort="2" velocity="2"/>'): (
+            "upper of joint [j] is '1 m', not a number"
+        ),
         one_joint("fixed", "", ""): "no child link name specified for joint [j]",
         one_joint("fixed", "c"): "child link [c] of joint [j] not found",
         one_joint("fixed", "a"): "link [a] is its own ancestor",

@@ -58,6 +58,19 @@ def test_someone_waits_for_what_no_one_gives(gives, takes, reason):
     assert reasons(node("a", **gives), node("b", **takes)) == [reason]
 
 
+def test_of_a_command_and_a_node_the_command_is_wrong():
+    ends = [
+        Endpoint("service", "/watchman", "/watchman/patrol", "std_srvs/srv/SetBool", {}),
+        Endpoint("client", "/_ros2cli", "/patrol", "std_srvs/srv/SetBool", {}),
+    ]
+    (gap,) = missing(Graph(["/watchman", "/_ros2cli"], ends))
+    assert gap.reason == (
+        "/_ros2cli gets no response: no node offers the service /patrol, but /watchman offers "
+        "/watchman/patrol. Only the namespace differs: write /watchman/patrol. A name that starts with a "
+        "slash is taken as it is; without the slash the node's namespace is put before it."
+    )
+
+
 def test_another_type():
     ends = [
         Endpoint("publisher", "/a", "/news", "std_msgs/msg/String", {}),

@@ -101,16 +101,28 @@ class SleepsWithAsyncio(Worker):
         await asyncio.sleep(0.1)
 
 
+class RunsAsyncio(Worker):
+    def tick(self):
+        asyncio.run(asyncio.sleep(0.1))
+
+
+async def spinning(node_class):
+    """Let asyncio drive rclpy."""
+    rclpy.init()
+    node = node_class()
+    while rclpy.ok():
+        rclpy.spin_once(node, timeout_sec=0.0)
+        await asyncio.sleep(0.02)
+
+
 def awaits_in_asyncios_loop():
     """asyncio drives rclpy, and a callback of rclpy awaits what is asyncio's."""
+    asyncio.run(spinning(SleepsWithAsyncio))
 
-    async def spinning(node):
-        while rclpy.ok():
-            rclpy.spin_once(node, timeout_sec=0.0)
-            await asyncio.sleep(0.02)
 
-    rclpy.init()
-    asyncio.run(spinning(SleepsWithAsyncio()))
+def runs_in_asyncios_loop():
+    """asyncio drives rclpy, and a callback of rclpy starts asyncio once more."""
+    asyncio.run(spinning(RunsAsyncio))
 
 
 class OpensNoFile(Worker):

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from diagnostic_msgs.msg import DiagnosticStatus
 from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
@@ -59,6 +60,11 @@ class TakesAStampFromATime(Looker):
 class DurationForAMessage(Looker):
     def look(self, scan, imu):
         return NavigateToPose.Feedback(estimated_time_remaining=Duration(seconds=1.5))
+
+
+class LevelAsANumber(Looker):
+    def look(self, scan, imu):
+        return DiagnosticStatus(name="lidar", level=1)
 
 
 class TooShallow(Looker):

@@ -25,6 +25,7 @@ OLD, NEAR, WIDE = 0.5, 1.5, 2.5  # s; m: stands, drives slowly
 NO_STOPS = ("When the robot may not drive, your node publishes nothing, and the robot keeps its last "
             "command: "
             "publish zeros then, every time drive is called.")
+LOOK_OUT = "Compute the distance to each of self.people before each command."
 ABOUT = 0.05  # m; what is nearer to a limit is on neither side
 LATE = 0.19  # s; the most that a message takes from the robot to the student's laptop
 BUSY = Network(links={
@@ -32,7 +33,7 @@ BUSY = Network(links={
     ("laptop", "robot"): Network(delay=0.02, jitter=0.01),
 })
 
-gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, companions=partners,
+gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=52, companions=partners,
                 network=BUSY, seeds=(2,))
 
 
@@ -49,9 +50,8 @@ def arrives(run: Recording) -> None:
     """The robot gets to the first place it is sent to, and touches no one."""
     touched = [contact for contact in run.contacts if contact.what == "person"]
     if touched:
-        hint = "A person is walking there: before each command, check whether the robot may move at all."
         saw = f"a person touched at {touched[0].stamp:.3g} s"
-        raise Missed("no one touched", saw, hint, picture="path", unsafe=True)
+        raise Missed("no one touched", saw, LOOK_OUT, picture="path", unsafe=True)
     places = [place for _, place in _goals(run)]
     if len(set(places)) < 2:
         aim = "Drive along self.way with steer, as fast as the gate allows, and stop when the goal is near."
@@ -63,8 +63,7 @@ def arrives(run: Recording) -> None:
 @gate.check(4, after=arrives)
 def stands_near_people(run: Recording) -> None:
     """It stands still while a person is reported within 1.5 m."""
-    hint = "Compute the distance to each of self.people before each command."
-    _require_at_most(run, STILL, _close, hint, unsafe=True)
+    _require_at_most(run, STILL, _close, LOOK_OUT, unsafe=True)
 
 
 @gate.check(2, after=arrives)
@@ -134,16 +133,16 @@ def _moments(run: Recording) -> list[KnownState]:
     found = []
     for now in times:
         pose, people = (last_before(rows[topic], now - LATE) or rows[topic][0] for topic in (POSE, PEOPLE))
-        age = max(now - since_start(row.message.header.stamp) for row in (pose, people))
+        ages = [now - since_start(row.message.header.stamp) for row in (pose, people)]
         here = Pose2D.from_message(pose.message.pose)
         places = [Pose2D.from_message(one)[:2] for one in people.message.poses]
         near = min((math.dist(here[:2], place) for place in places), default=math.inf)
-        why = "the stamps of all messages were old"
+        why = f"the stamps on {POSE if ages[0] > OLD else PEOPLE} were old"
         if now - pose.stamp >= OLD:
             why = "there were no messages"
         elif now - people.stamp > OLD:
             why = f"nothing arrived on {PEOPLE}"
-        found.append(KnownState(now, age, why, near))
+        found.append(KnownState(now, max(ages), why, near))
     return found
 
 

@@ -70,7 +70,17 @@ def answers_side_by_side(run: Recording, found: list[tuple[Message, Message]]) -
             raise Missed(expected, f"it at {answer.stamp:.3g} s", about=(label,), picture="topics")
 
 
-@shelves.check(2, after=answers_each_label, hints={
+@shelves.check(1, after=answers_each_label)
+def leaves_the_processor(run: Recording) -> None:
+    """While nothing is due, the program sleeps: others on this computer need the processor, too."""
+    if run.busy_loops:
+        loop = run.busy_loops[0]
+        hint = ("asyncio.sleep(0), or no pause at all, keeps a whole processor core busy: sleep 0.02 s, with "
+                "await asyncio.sleep(0.02).")
+        raise Missed("a pause between two calls of spin_once()", f"none from {loop.stamp:.3g} s on", hint)
+
+
+@shelves.check(1, after=answers_each_label, hints={
     "A callback waited for {seconds:.2g} s, and so did the whole node. Start a task there, and return at "
     "once.":
         lambda run, pause: _longest_callback(run) > PAUSE and {"seconds": _longest_callback(run)},

@@ -2,7 +2,7 @@
 
 import math
 
-from grader.checks import Missed, named, publishes
+from grader.checks import Missed, publishes
 from grader.companions.tower_watcher import WAITING
 from grader.companions.transforms import localization
 from grader.exercise import Exercise, Scenario
@@ -25,10 +25,12 @@ watch = Exercise("watch", "The tower that does not watch", scenarios=[_scenario(
 
 @watch.check(2)
 def starts_the_watcher(run: Recording) -> None:
-    """The watcher is started, as /watcher or in a namespace."""
-    started = [name for name in run.graph.nodes if not run.is_course_node(name)]
-    if not any(name.endswith("/watcher") for name in started):
-        named(run, "/watcher")
+    """The watcher is started, under any name."""
+    started = [row.node for row in run.parameters if row.declared and row.name == "target"]
+    if not any(not run.is_course_node(node) for node in started):
+        nodes = [name for name in run.graph.nodes if not run.is_course_node(name)]
+        hint = "Start the class as it is: return Process(frames.Watcher, ...)."
+        raise Missed("the watcher, with its parameter target", ", ".join(nodes) or "no node", hint)
 
 
 @watch.check(10, after=starts_the_watcher)

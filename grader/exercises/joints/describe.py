@@ -22,6 +22,9 @@ MOVING = {  # joint: its parent, its child, where it is on the parent (m), and i
 }
 LINKS = "base_link", "pan_link", "tilt_link", "camera"
 CAMERA, PLACE, ROLL = LINKS[2:], (0.04, 0.0, 0.02), 3.1416
+OF_A_LIMIT = "lower", "upper", "effort", "velocity"
+STRENGTH = 2.0, 3.0  # N m, rad/s
+SHOWN = "from {:g} to {:g} rad, effort {:g}, velocity {:g}"
 NEAR = 0.001  # m; and of a quaternion's numbers
 LEAST = 5  # transforms of each joint
 PART = 0.25  # of the points, where a joint turns, but about another axis or at another place
@@ -85,16 +88,16 @@ def mounts_the_camera(run: Recording, robot: ElementTree.Element) -> None:
 
 @describe.check(2, after=moves_with_its_joints)
 def has_limits(run: Recording, robot: ElementTree.Element) -> None:
-    """Both joints that move have the limits of the task, in radians."""
+    """Both joints that move have the limits of the task, in radians, with their effort and velocity."""
     limits = {joint.get("name"): joint.find("limit") for joint in robot.iterfind("joint[@type='revolute']")}
-    for name, wanted in LIMITS.items():
+    for name, ends in LIMITS.items():
         limit = limits.get(name)
-        found = None if limit is None else [_number(limit.get(end, "0")) for end in ("lower", "upper")]
-        if found is None or not same(found, wanted, NEAR):
-            saw = "no limit" if found is None else "{:g} and {:g}".format(*found)
+        found = None if limit is None else [_number(limit.get(key, "0")) for key in OF_A_LIMIT]
+        if found is None or not same(found, [*ends, *STRENGTH], NEAR):
+            saw = "no limit" if found is None else SHOWN.format(*found)
             hint = ('A revolute joint has <limit lower="..." upper="..." effort="..." velocity="..."/>, in '
                     "radians. A continuous joint turns without end.")
-            raise Missed("{} from {:g} to {:g} rad".format(name, *wanted), saw, hint)
+            raise Missed(f"{name} {SHOWN.format(*ends, *STRENGTH)}", saw, hint)
 
 
 def _number(text: str) -> float:

@@ -1,6 +1,7 @@
 """Publish seven positions for a joint, one every two seconds, and end."""
 
 import itertools
+import math
 
 from grader.checks import Missed, otherwise, publishes
 from grader.exercise import Exercise
@@ -10,6 +11,7 @@ from sim.evidence import Recording
 
 COMMANDS = "/joint_commands"
 POSITIONS = [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]  # rad
+NEARLY = 0.25  # of the points
 PERIOD, HELD = 2.0, 0.5  # s: between two, and as long as no callback takes
 
 seven = Exercise("seven", "Seven positions", world="joint", seconds=20, may_end=True)
@@ -37,7 +39,14 @@ def sends_all_seven(run: Recording) -> None:
     """It sends the seven positions, one after the other, and no others."""
     sent = [round(row.message.data, 6) for row in run.messages(COMMANDS)]
     if sent != POSITIONS:
-        raise Missed(listed(POSITIONS), listed(sent), about=(sent,))
+        raise Missed(listed(POSITIONS), listed(sent), about=(sent,), credit=NEARLY * _is_nearly_right(sent))
+
+
+def _is_nearly_right(sent: list[float]) -> bool:
+    """Whether one mistake explains what was sent: the order, the unit, one too few, or an end too late."""
+    in_degrees = [round(math.degrees(value), 6) for value in POSITIONS]
+    parts = POSITIONS, POSITIONS[1:], POSITIONS[:-1], in_degrees
+    return sent[: len(POSITIONS)] == POSITIONS or sorted(sent) in map(sorted, parts)
 
 
 @seven.check(3, after=sends_all_seven)

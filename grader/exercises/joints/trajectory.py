@@ -15,6 +15,7 @@ from sim.evidence import Goal, Message, Recording, Seconds
 from sim.nanoseconds import in_seconds
 
 SOON = 0.5  # s
+SENT = 0.2  # of the points, where each path became a goal, but another one
 SLOW = 1.5  # times as long as needed, and
 REST = 0.5  # s more, is still fine
 OVERTAKEN = ("This goal took so long that the next path arrived before it ended: fix the line about the "
@@ -69,7 +70,8 @@ def by_their_names(run: Recording) -> list[Lesson]:
         for number, (expected, saw) in enumerate(pairs, start=1):
             if expected != saw:
                 where = f"at point {number} of the goal at {goal.requested:.3g} s"
-                raise Missed(f"{_point_text(expected)} {where}", _point_text(saw), about=(path, sent))
+                part = {"about": (path, sent), "credit": SENT, "measured": lessons}
+                raise Missed(f"{_point_text(expected)} {where}", _point_text(saw), **part)
     return lessons
 
 
@@ -104,8 +106,7 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
     """With each feedback, the larger of the two joints' errors is published on /worst_error, unsigned."""
     feedback = [row for _, goal in lessons for row in goal.feedback]
     if not feedback:
-        hint = "Without an accepted goal there is no feedback: fix the other lines first."
-        raise Missed("feedback of an arm that follows a path", "none", hint)
+        raise Missed("feedback", "none", because=(by_their_names, at_the_speed))
     published = publishes(run, "/worst_error", "std_msgs/msg/Float64")
     for row in feedback:
         window, error = Window.after(row.stamp, SOON), max(map(abs, row.message.error.positions))
@@ -174,7 +175,7 @@ def _parts(run: Recording, goal: Goal) -> list[Part]:
     begin, before, found = 0.0, dict(zip(state.name, state.position, strict=True)), []
     sent = goal.request.trajectory
     for point, positions in zip(sent.points, _by_name(sent), strict=True):
-        ways = [abs(positions[name] - before[name]) / CRUISE for name in positions]
+        ways = [abs(positions[name] - before.get(name, math.inf)) / CRUISE for name in positions] or [0.0]
         end = in_seconds(point.time_from_start)
         found.append(Part(len(found) + 1, begin, end, max(ways), sum(ways)))
         begin, before = end, positions

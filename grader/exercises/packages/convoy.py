@@ -7,7 +7,7 @@ from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
 from grader.geometry.near import is_near
 from grader.workspace.installation import ros2_launch
-from grader.workspace.near_misses import entry_points, executables
+from grader.workspace.near_misses import commas, entry_points, executables
 from grader.workspace.package import PackageRun
 from sim import World
 
@@ -31,7 +31,7 @@ def _launch(*words: str) -> partial:
 convoy = Exercise("convoy", "One launch file, two robots", package="convoy", scenarios=[
     Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
     Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={REQUESTED}")),
-], near_misses=[entry_points, executables])
+], near_misses=[commas, entry_points, executables])
 
 
 def _ignores_namespaces(run: PackageRun) -> bool:

@@ -9,7 +9,7 @@ from grader.companions.package_sensors import EDGES, VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
 from grader.workspace.installation import ros2_run
-from grader.workspace.near_misses import entry_points
+from grader.workspace.near_misses import commas, entry_points
 from grader.workspace.package import PackageRun
 
 DEGREES = "/celsius"
@@ -21,7 +21,7 @@ SOON, SAME = 0.2, 0.05  # s, degrees
 gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
     Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
              companions=lambda seed: [partial(VoltageProbe, seed)]),
-], near_misses=[partial(entry_points, commands=["gauge"])])
+], near_misses=[commas, partial(entry_points, commands=["gauge"])])
 voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")
 
 

@@ -6,14 +6,14 @@ from grader.checks import Missed, publishes, rate
 from grader.checks.packages import installs_by_itself, names_what_it_imports, starts_a_node
 from grader.exercise import Exercise, Scenario
 from grader.workspace.installation import ros2_run
-from grader.workspace.near_misses import entry_points
+from grader.workspace.near_misses import commas, entry_points
 from grader.workspace.package import PackageRun
 
 TOPIC = "/greeting"
 
 greeter = Exercise("greeter", "A package from nothing", package="greeter",
                    scenarios=[Scenario(seconds=6, prepare=partial(ros2_run, "greeter", "hello"))],
-                   near_misses=[partial(entry_points, commands=["hello"])])
+                   near_misses=[commas, partial(entry_points, commands=["hello"])])
 
 
 @greeter.check(5, guess="Compare the topic's name with the task, letter by letter.")

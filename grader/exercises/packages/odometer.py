@@ -13,7 +13,7 @@ from grader.companions.package_sensors import TICKS, WheelEncoder
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
 from grader.workspace.installation import ros2_run
-from grader.workspace.near_misses import entry_points
+from grader.workspace.near_misses import commas, entry_points
 from grader.workspace.package import PackageRun
 
 DISTANCE = "/distance"
@@ -22,7 +22,7 @@ SOON, SAME = 0.2, 1e-6  # s, m
 odometer = Exercise("odometer", "A program out of scripts/", package="odometer", scenarios=[
     Scenario(seconds=5, prepare=partial(ros2_run, "odometer", "odometer"),
              companions=lambda seed: [partial(WheelEncoder, seed)]),
-], near_misses=[partial(entry_points, commands=["odometer"])])
+], near_misses=[commas, partial(entry_points, commands=["odometer"])])
 counts = Stimuli(TICKS, answered_on=DISTANCE, within=SOON, what="counts on /ticks")
 
 

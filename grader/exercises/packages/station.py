@@ -8,7 +8,7 @@ from grader.companions.package_sensors import TEMPERATURE, WeatherStation
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli
 from grader.workspace.installation import ros2_run
-from grader.workspace.near_misses import entry_points
+from grader.workspace.near_misses import commas, entry_points
 from grader.workspace.package import PackageRun
 
 SHOWN = "/display"
@@ -19,7 +19,7 @@ station = Exercise("station", "Names for two programs", package="station", scena
     Scenario(seconds=4, name="sensor", prepare=partial(ros2_run, "station", "sensor")),
     Scenario(seconds=5, name="display", prepare=partial(ros2_run, "station", "display"),
              companions=lambda seed: [partial(WeatherStation, seed)]),
-], near_misses=[partial(entry_points, commands=COMMANDS)])
+], near_misses=[commas, partial(entry_points, commands=COMMANDS)])
 temperatures = Stimuli(TEMPERATURE, answered_on=SHOWN, within=SOON, what="temperatures on /temperature")
 
 

@@ -1,15 +1,18 @@
 """Stop before a wall."""
 
+import math
+
 from grader.checks import Missed, otherwise, publishes, series, stands_still
 from grader.exercise import Exercise, Scenario
-from grader.worlds.rooms import hall, short_sighted
+from grader.worlds.rooms import hall, past_a_post, short_sighted
 from sim.evidence import Recording
 
 STOP_AT = 1.0  # meters before the wall
 
 stop = Exercise("stop", "Stop before the wall", scenarios=[
-    Scenario(hall, 30, 1),
-    Scenario(lambda seed: short_sighted(hall(seed)), 30, 2),
+    Scenario(hall, 30, 1, name="hall"),
+    Scenario(lambda seed: short_sighted(hall(seed)), 30, 2, name="short-sighted"),
+    Scenario(past_a_post, 12, 3, name="post"),
 ])
 
 
@@ -36,7 +39,7 @@ def sets_off(run: Recording) -> None:
         raise Missed(expected, f"it gets {far:.2f} m", picture="path", about=(far,))
 
 
-@stop.check(4, after=sets_off, hints={
+@stop.check(3, after=sets_off, only=("hall", "short-sighted"), hints={
     "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).":
         lambda run, gap: gap > STOP_AT,
     "That is late for a robot at 0.3 m/s: do you publish zero at once, in the same callback?":
@@ -57,7 +60,18 @@ def stops_in_time(run: Recording) -> None:
         raise Missed(expected, f"it ends {gap:.2f} m before the wall", picture="path", about=(gap,))
 
 
-@stop.check(2, after=stops_in_time)
+@stop.check(1, after=(sets_off, stops_in_time), only="post",
+            guess="min(msg.ranges) looks at all rays, not only at the one ahead.")
+def looks_all_round(run: Recording) -> None:
+    """It also stops for a post that is nearer than 1 m, but not straight ahead."""
+    [post] = run.world.circles
+    gap = math.dist((post.x, post.y), run.path[-1][1:3]) - post.radius
+    if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
+        expected = "a stop about 0.95 m from the post"
+        raise Missed(expected, f"it ends {gap:.2f} m from it", picture="path")
+
+
+@stop.check(2, after=stops_in_time, only=("hall", "short-sighted"))
 def publishes_a_stop(run: Recording) -> None:
     """It stays there, and keeps sending zeros."""
     stands_still(run)

@@ -111,8 +111,7 @@ def _joint(element: ElementTree.Element) -> Joint:
     kind = element.get("type", "")
     if kind not in TYPES:
         raise InvalidDescription(f"Joint [{name}] has no known type [{kind}]")
-    if kind in LIMITED and element.find("limit") is None:
-        raise InvalidDescription(f"Joint [{name}] is of type {kind.upper()} but it does not specify limits")
+    _check_limit(element, kind, name)
     ends = [_child(element, tag).get("link") for tag in ("parent", "child")]
     for tag, link in zip(("parent", "child"), ends, strict=True):
         if not link:
@@ -136,6 +135,20 @@ def _joint(element: ElementTree.Element) -> Joint:
         axis=direction,
         mimic=None if mimic is None else _mimic(mimic, name),
     )
+
+
+def _check_limit(element: ElementTree.Element, kind: str, name: str) -> None:
+    """Raise InvalidDescription where urdfdom refuses a limit: it needs effort and velocity."""
+    limit = element.find("limit")
+    if limit is None and kind in LIMITED:
+        raise InvalidDescription(f"Joint [{name}] is of type {kind.upper()} but it does not specify limits")
+    if limit is None:
+        return
+    for key in ("effort", "velocity"):
+        if limit.get(key) is None:
+            raise InvalidDescription(f"joint limit: no {key}: the <limit> of joint [{name}] needs it")
+    for key in ("lower", "upper", "effort", "velocity"):
+        _number(limit.get(key, "0"), f"{key} of joint [{name}]")
 
 
 def _mimic(element: ElementTree.Element, name: str) -> Mimic:

@@ -19,6 +19,8 @@ from sim.world.lidar import LidarModel
 
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
+# Of x, y and yaw; the rest of the 6 x 6 numbers is exactly 0 in a flat world.
+VARIANCES = tuple(f"pose.covariance.{index}" for index in (0, 7, 35))
 TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
@@ -35,7 +37,7 @@ class SensorMessages:
         self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
         pose = [f"pose.pose.{name}" for name in POSE]
         twist = ["twist.twist.linear.x", "twist.twist.angular.z"]
-        self.odom = Template(Odometry(**moves), [*STAMP, *pose, *twist])
+        self.odom = Template(Odometry(**moves), [*STAMP, *pose, *twist, *VARIANCES])
         fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
         transforms = TFMessage(transforms=[TransformStamped(**moves)])
         self.tf = Template(transforms, [f"transforms.0.{field}" for field in fields])

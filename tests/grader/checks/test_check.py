@@ -115,7 +115,7 @@ def test_a_miss_is_data():
     assert str(miss) == "expected 1 Hz; saw 2 Hz"
     plain = Missed("1 Hz", "2 Hz")
     assert (plain.hint, plain.guess, plain.credit, plain.picture) == ("", "", 0.0, "")
-    assert (plain.measured, plain.typo, plain.unsafe, plain.about) == (None, None, False, ())
+    assert (plain.measured, plain.typo, plain.unsafe, plain.about, plain.because) == (None, None, False, (), ())
 
 
 def documented(recording):

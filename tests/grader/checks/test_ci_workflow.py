@@ -7,6 +7,30 @@ from grader.checks.ci_workflow import read_workflow, require_tests
 from tests.students.packages.limiter import CI, IN_ONE_STEP
 
 PATH = "test.yml"
+RESULT = "      - run: source /opt/ros/jazzy/setup.bash && colcon test-result --verbose\n"
+BY_ITS_STATUS = CI.replace(RESULT, "").replace("colcon test\n", "colcon test --return-code-on-test-failure\n")
+BY_ROS_TOOLING = """\
+on: [push]
+jobs:
+  test:
+    runs-on: ubuntu-latest
+    container: rostooling/setup-ros-docker:ubuntu-noble-ros-jazzy-ros-base-latest
+    steps:
+      - uses: ros-tooling/action-ros-ci@v0.4
+        with:
+          target-ros2-distro: jazzy
+          package-name: limiter
+"""
+BY_INDUSTRIAL_CI = """\
+on: [push]
+jobs:
+  industrial_ci:
+    runs-on: ubuntu-latest
+    env: {ROS_DISTRO: jazzy}
+    steps:
+      - uses: actions/checkout@v4
+      - uses: ros-industrial/industrial_ci@master
+"""
 
 
 def missed(text):
@@ -22,6 +46,13 @@ def missed(text):
         CI,
         f"\ufeff{CI}",
         IN_ONE_STEP,
+        BY_ITS_STATUS,
+        BY_ROS_TOOLING,
+        BY_ROS_TOOLING.replace("    container: rostooling/setup-ros-docker:ubuntu-noble-ros-jazzy-ros-base-latest\n", "").replace(
+            "steps:\n", "steps:\n      - uses: ros-tooling/setup-ros@v0.7\n"
+        ),
+        BY_INDUSTRIAL_CI,
+        CI.replace("source /opt/ros/jazzy/setup.bash && source install", "source install"),
         CI.replace("[push, pull_request]", "push"),
         CI.replace("container: ros:jazzy", "container: {image: 'osrf/ros:jazzy-desktop'}"),
         CI.replace("    container: ros:jazzy\n", "").replace(
@@ -56,7 +87,7 @@ def test_what_is_no_workflow_is_missed_with_its_line():
 
 
 SOURCED = "Each step runs in a new shell: source /opt/ros/jazzy/setup.bash, then call colcon."
-RESULT = "colcon test exits with 0 even if a test fails; colcon test-result doesn't."
+STATUS = "colcon test exits with 0 even if a test fails, unless it has --return-code-on-test-failure; colcon test-result doesn't."
 HIDES = "A workflow fails if one of its commands fails: remove whatever hides that."
 
 
@@ -71,10 +102,12 @@ HIDES = "A workflow fails if one of its commands fails: remove whatever hides th
         ("ros:jazzy", "ros:humble",
          ("a container with ROS 2 Jazzy", "ros:humble", "`container: ros:jazzy` runs the steps where ROS is installed.", 0.0)),
         ("source /opt/ros/jazzy/setup.bash && ", "",
-         ("source /opt/ros/jazzy/setup.bash before colcon", "no such line", SOURCED, 0.0)),
+         ("source /opt/ros/jazzy/setup.bash before colcon build, in the same step", "no such line", SOURCED, 0.0)),
+        ("source /opt/ros/jazzy/setup.bash && source install/setup.bash && colcon test\n", "colcon test\n",
+         ("source /opt/ros/jazzy/setup.bash before colcon test, in the same step", "no such line", SOURCED, 0.5)),
         (" && colcon build", "", ("`colcon build` in a step", "no such command", "Run it in a step.", 0.0)),
         (" && colcon test\n", "\n", ("`colcon test` in a step", "no such command", "Run it in a step.", 0.0)),
-        ("colcon test-result", "# colcon test-result", ("`colcon test-result` in a step", "no such command", RESULT, 0.5)),
+        (RESULT, "", ("`colcon test-result` in a step", "no such command", STATUS, 0.5)),
         ("test-result --verbose", "test-result || true",
          ("a workflow that fails if a test fails", "a failure that is ignored", HIDES, 0.5)),
         ("    runs-on", "    continue-on-error: true\n    runs-on",
@@ -94,3 +127,24 @@ def test_the_order_of_the_commands_counts():
         "colcon build, colcon test, colcon test-result, in this order",
         "colcon test, colcon build, colcon test-result",
     )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "wanted"),
+    [
+        ("jazzy\n          package", "kilted\n          package",
+         ("target-ros2-distro: jazzy for ros-tooling/action-ros-ci", "kilted", "Give it in the step, below `with:`.", 0.5)),
+        ("ubuntu-noble-ros-jazzy-ros-base-latest", "ubuntu-noble-latest",
+         ("a container with ROS 2 Jazzy", "rostooling/setup-ros-docker:ubuntu-noble-latest", "`container: ros:jazzy` runs the steps where ROS is installed.", 0.0)),
+        ("    runs-on", "    continue-on-error: true\n    runs-on",
+         ("a workflow that fails if a test fails", "a failure that is ignored", HIDES, 0.5)),
+    ],
+)  # fmt: skip
+def test_an_action_that_builds_and_tests_needs_its_distribution(old, new, wanted):
+    assert old in BY_ROS_TOOLING
+    assert missed(BY_ROS_TOOLING.replace(old, new)) == wanted
+
+
+def test_a_status_that_is_ignored_hides_a_failure():
+    ignored = BY_ITS_STATUS.replace("failure\n", "failure || true\n")
+    assert missed(ignored) == ("a workflow that fails if a test fails", "a failure that is ignored", HIDES, 0.5)

@@ -413,3 +413,29 @@ def test_where_runs_earn_the_same_a_miss_is_shown_before_what_was_skipped_and_th
 
 def test_a_run_that_earns_less_is_shown_whatever_became_of_it():
     assert chosen(verdict("failed", 0.5), verdict("broken", 0.0)).status == "broken"
+
+
+@check(points=1)
+def follows(recording):
+    """It follows."""
+    raise Missed("feedback", "none", "Fix the rest first.", because=(sends, half))
+
+
+def test_what_an_earlier_miss_has_caused_is_skipped():
+    verdicts = {verdict.name: verdict for verdict in judge([sends, half, follows], Recording(seed=1))}
+    assert verdicts["follows"].status == "skipped"
+    assert verdicts["follows"].hint == "Not graded yet: fix this first: “It does both parts.”"
+
+
+def test_without_that_miss_it_is_one_of_its_own():
+    def passes(recording):
+        """It does both parts."""
+
+    passes = check(points=1)(passes)
+
+    @check(points=1)
+    def alone(recording):
+        """It follows."""
+        raise Missed("feedback", "none", "Fix the rest first.", because=(passes,))
+
+    assert statuses(judge([passes, alone], Recording(seed=1))) == {"passes": "passed", "alone": "failed"}

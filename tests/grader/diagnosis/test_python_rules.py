@@ -25,6 +25,7 @@ ADVICE = {
     "WritesNonsense": "Python can't read that line: check its brackets, quotes, commas and colons.",
     "SleepsWithAsyncio": "`asyncio.sleep()` works only in asyncio's event loop, and a callback that is a coroutine runs in rclpy's executor. For a pause, await a future that a timer completes: `pause = Future(); timer = self.create_timer(0.5, lambda: pause.set_result(None)); await pause; timer.cancel()`, with `from rclpy.task import Future`.",
     "awaits_in_asyncios_loop": "rclpy runs this coroutine, and can't await an asyncio future. Start an asyncio task in the callback, `asyncio.create_task(...)`, and return at once.",
+    "runs_in_asyncios_loop": "asyncio's event loop is already running, and there is only one in a thread. Start a task in it: `asyncio.create_task(...)`, which returns at once.",
     "OpensNoFile": "There is no file `map.yaml`. A name without a slash in front is looked for in the folder that the program was started in, here the notebook's: `os.getcwd()` names it, `os.listdir()` what is in it.",
     "StartsNoProgram": "There is no program `ros2` on this machine. What it would do can often be done in Python: a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do.",
     "MakesAnIntOfInf": "inf and -inf can't be converted to a whole number: check `math.isfinite(number)` first.",

@@ -23,6 +23,7 @@ ADVICE = {
     "LooksBackFromTimeZero": 'A bare Time() is time 0, and nothing comes before it. The current time is `self.get_clock().now()`; for "not yet" store None, and test for that first.',
     "ComparesWithTheSystemsTime": "A node's clock has ROS time, and a bare Time() system time. Name the clock type: `Time(seconds=3, clock_type=self.get_clock().clock_type)`; `Time.from_msg(stamp)` doesn't need it.",
     "DurationForAMessage": "`estimated_time_remaining` is itself a message: `.to_msg()` converts a Duration into one, as in `Duration(seconds=1.5).to_msg()`.",
+    "LevelAsANumber": "The level of a DiagnosticStatus is a byte, not a number: take its constants, such as `DiagnosticStatus.OK` and `DiagnosticStatus.WARN`.",
     "TooShallow": "In an Odometry message it is two levels down: `msg.pose.pose.orientation`.",
     "ForgetsToReturn": "`self.polar` returned None, because it has no `return` with a value. End it with `return` and a value.",
     "QueueOfNumbers": "Several values were expected, but there was one float: return them together, as in `return x, y`, or as a pair, `(number, cell)`.",

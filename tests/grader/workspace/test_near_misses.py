@@ -5,7 +5,7 @@ from functools import partial
 import pytest
 
 from grader.marking.judge.patrol_faults import FAULTS, FILES, with_one_fault_less
-from grader.workspace.near_misses import corrected, entry_points, executables, judge_only
+from grader.workspace.near_misses import commas, corrected, entry_points, executables, judge_only
 
 SETUP = "station/setup.py"
 POINTS = "entry_points={{'console_scripts': ['sensor = station.sensor:{}', \"display = station.display:show\"]}}"
@@ -65,3 +65,28 @@ def test_a_correction_that_students_do_not_have_corrects_nothing_there():
     name = "grader.marking.judge.patrol_faults"
     assert corrected(broken(FAULTS[0]), [judge_only(f"{name}:with_one_fault_less")]) == broken()
     assert corrected(broken(FAULTS[0]), [judge_only(f"{name}_of_students:with_one_fault_less")]) is None
+
+
+COMPLETE = """\
+from glob import glob
+setup(
+    name='station',
+    data_files=[
+        ('share/station', ['package.xml']),
+        ('share/station/launch', glob('launch/*')),
+    ],
+    entry_points={'console_scripts': ['sensor = station.sensor:main', 'display = station.display:show']},
+)
+"""
+
+
+@pytest.mark.parametrize("before", ["name='station'", "['package.xml'])", "glob('launch/*')),\n    ]", "sensor:main'"])
+def test_a_comma_that_is_missing_is_put_in(before):
+    assert f"{before}," in COMPLETE
+    incomplete = {SETUP: COMPLETE.replace(f"{before},", before).encode()}
+    assert corrected(incomplete, [commas]) == {SETUP: COMPLETE.encode()}
+
+
+@pytest.mark.parametrize("text", [COMPLETE, COMPLETE.replace("setup(", "setup(("), "\x00"])
+def test_where_no_comma_is_missing_none_is_put_in(text):
+    assert corrected({SETUP: text.encode()}, [commas]) is None

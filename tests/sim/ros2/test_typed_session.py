@@ -1,6 +1,7 @@
 """What was typed in terminals, typed again in a run."""
 
 import itertools
+from dataclasses import replace
 
 import pytest
 
@@ -162,6 +163,29 @@ def test_a_terminal_is_busy_until_its_program_has_ended(typed):
     ]
 
 
+def test_what_waits_for_a_name_that_is_not_there_is_ended_before_the_next_line(typed):
+    waiting = "ros2 topic echo /nothing std_msgs/msg/String"
+    recording = typed(f"export ROS_DOMAIN_ID=42\n{waiting}\nls\nls\n", seconds=30)
+    assert shown(recording)[-5:] == [
+        "terminal 1, line 3 $ ls",
+        "line 2 is still running in terminal 1",
+        "[line 3 failed]",
+        "terminal 1, line 3 $ ls",
+        "terminal 1, line 4 $ ls",
+    ]
+
+
+def test_the_robot_may_be_in_another_domain(typed):
+    lines = shown(
+        typed(
+            "python -m sim --world room --domain 7\n# terminal 2\nROS_DOMAIN_ID=7 ros2 node list\n"
+            "ROS_DOMAIN_ID=42 ros2 node list\n"
+        )
+    )
+    assert lines.count("/robot") == 1
+    assert lines[-2] == "There are no nodes on ROS domain 42, but on 7: export ROS_DOMAIN_ID=7"
+
+
 FAILURES = {
     "rso2 run demo driver": "rso2: command not found. Did you mean ros2?",
     "drive": "drive: command not found",
@@ -240,3 +264,20 @@ def test_a_value_in_quotes_is_one_word():
     assert words_of("ros2 x \"{a: 'b|c'}\" '$d' # e") == ["ros2", "x", "{a: 'b|c'}", "$d"]
     with pytest.raises(InvalidLine, match=r"^`>` needs a shell"):
         words_of("ros2 x > y")
+
+
+NEARLY = {
+    "nothing is set up": DRIVE,
+    "a typo in each word": f"{SET_UP}rso2 rum dmo drivr --ros-args -r driv:=cmd_val",
+    "in one line": f"cd ws && colcon build && source install/setup.bash\n{DRIVE} &",
+    "in the robot's terminal": f"python -m sim --world room --domain 7\n{SET_UP}{DRIVE}",
+}
+
+
+@pytest.mark.parametrize("text", NEARLY.values(), ids=NEARLY)
+def test_a_lenient_run_types_it_as_it_was_meant(prefix, text):
+    program = terminals(text, prefix)
+    plain = run(program, world="room", seconds=20, quiet=True, expect_error=True)
+    assert not [row for row in plain.messages("/cmd_vel") if row.sender == "/driver"]
+    lenient = run(replace(program, lenient=True), world="room", seconds=20, quiet=True, expect_error=True)
+    assert len([row for row in lenient.messages("/cmd_vel") if row.sender == "/driver"]) > 20

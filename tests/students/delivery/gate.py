@@ -162,6 +162,21 @@ class WhenItCame(Control):
         return self.now()
 
 
+class WhenThePoseCame(Control):
+    """By its arrival, and only the people by their stamp."""
+
+    def on_pose(self, message):
+        self.pose, self.pose_at = flat(message.pose), self.now()
+
+
+class WhenPeopleCame(Control):
+    """By their arrival, and only the pose by its stamp."""
+
+    def on_people(self, people):
+        super().on_people(people)
+        self.people_at = self.now()
+
+
 class AgeOfThePoseOnly(Control):
     """As in the lesson: a node that received the pose has received the people."""
 

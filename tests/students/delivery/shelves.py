@@ -199,6 +199,10 @@ def spins_without_a_pause():
     asyncio.run(spin(Shelves()))
 
 
+busy_loop = in_event_loop(Shelves, pause=0)
+runs_in_the_callback = in_event_loop(RunsInTheCallback)
+
+
 class ForgetsAwait(Shelves):
     async def answer(self, label):
         self.publish(label, shelf_of(label))

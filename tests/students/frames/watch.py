@@ -2,12 +2,13 @@
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 from rclpy.time import Time
 
 from grader.exercises.frames import Watcher
 from sim import Process
 
-PARTS = ("Both", "Impatient")
+PARTS = ("Both", "Impatient", "Turner")
 
 
 class Both(Watcher):
@@ -36,6 +37,20 @@ class Impatient(Watcher):
         if self.looks == 10 and not known:
             raise SystemExit("No frame scout/base_link: nothing to watch")
         super().watch()
+
+
+class Turner(Node):
+    """Turns without a look at anything."""
+
+    def __init__(self):
+        super().__init__("watcher")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.angular.z = 0.5
+        self.publisher.publish(command)
 
 
 def launch():
@@ -67,6 +82,16 @@ def launch_in_a_namespace_without_a_slash():
 
 def launch_with_a_namespace_in_words():
     return Process(Watcher, arguments=["--ros-args", "-r", "__ns:=/tower", "-p", "target:=scout"])
+
+
+def launch_under_another_name():
+    """A namespace and a name of its own, as each robot has them."""
+    return Process(Watcher, name="tower_watcher", namespace="tower", parameters={"target": "scout"})
+
+
+def launch_renamed_in_words():
+    remappings = [("cmd_vel", "/tower/cmd_vel"), ("__node", "guard")]
+    return Process(Watcher, parameters={"target": "scout"}, remappings=remappings)
 
 
 def in_the_namespace_of_the_scout():
@@ -105,9 +130,8 @@ def remapped_the_other_way():
     return Process(Watcher, parameters={"target": "scout"}, remappings=[("/tower/cmd_vel", "cmd_vel")])
 
 
-def another_name():
-    remappings = [("cmd_vel", "/tower/cmd_vel"), ("__node", "guard")]
-    return Process(Watcher, parameters={"target": "scout"}, remappings=remappings)
+def starts_another_program():
+    return Process(Turner, remappings=[("cmd_vel", "/tower/cmd_vel")])
 
 
 def gives_up_after_a_second():

@@ -143,6 +143,16 @@ class FourNeighbors(Planner):
     steps = STEPS[:4]
 
 
+class EstimatesTimesEight(Planner):
+    """In a hurry: what is near the goal comes first, whatever it costs to get there."""
+
+    weight = 8.0
+
+
+class EstimatesTimesTwo(Planner):
+    weight = 2.0
+
+
 class FewestSteps(Planner):
     """Counts a diagonal step as one."""
 

@@ -16,14 +16,15 @@ from std_msgs.msg import Float64
 class Guard(Node):
     def __init__(self, limits):
         super().__init__("limiter" if limits else "relay")
-        self.declare_parameter("limit", 0.5)  # m/s
+        self.declare_parameter("limit", 0.5)  # m/s, forward
+        self.declare_parameter("backward_limit", 0.5)  # m/s
         self.limits = limits
         self.speeds = self.create_publisher(Float64, "speed", 10)
         self.create_subscription(Float64, "request", self.on_request, 10)
 
     def on_request(self, msg):
-        limit = self.get_parameter("limit").value
-        speed = max(-limit, min(limit, msg.data)) if self.limits else msg.data
+        limit, backward = (self.get_parameter(name).value for name in ("limit", "backward_limit"))
+        speed = max(-backward, min(limit, msg.data)) if self.limits else msg.data
         self.speeds.publish(Float64(data=speed))
 
 
@@ -164,7 +165,7 @@ def node():
 
 
 @pytest.mark.launch(fixture=description)
-@pytest.mark.parametrize(("request_", "speed"), [(1.0, 0.3), (-0.25, -0.25)])
+@pytest.mark.parametrize(("request_", "speed"), [(1.0, 0.3), (-0.75, -0.3)])
 async def test_answers(node, request_, speed):
     received = []
     publisher = node.create_publisher(Float64, "/front/wanted", 10)
@@ -185,13 +186,22 @@ InTwoTests = tests(f"""\
 
 @pytest.mark.launch(fixture=launched)
 def test_after_the_shutdown(bench):
-    bench.request(-0.1)
-    assert bench.wait(0.3) == [-0.1]
+    bench.request(-1.0)
+    assert bench.wait(0.3) == [-0.3]
     yield
     bench.request(-0.1)
     assert bench.wait(0.3) == []
 """)
 OfItsOwn = tests(IN_ONE_LAUNCH)  # a design of its own
+Yields = but(
+    TEST,
+    "    return LaunchDescription([IncludeLaunchDescription(str(FILE)), ReadyToTest()])\n",
+    """\
+    description = LaunchDescription([IncludeLaunchDescription(str(FILE)), ReadyToTest()])
+    yield description
+    assert description.entities
+""",
+)
 
 NoTests = but(TEST)
 NothingIsAsserted = tests(f"{HEAD}def test_it(bench):\n    bench.request(2.0)\n    bench.wait(0.5)\n")
@@ -200,6 +210,8 @@ FailsOnItsOwn = but(TEST, "(2.0, 0.3)", "(2.0, 0.5)")
 OnlySomething = tests(
     f"{HEAD}def test_it(bench):\n    bench.request(0.2)\n    assert 0.2 in bench.wait(0.5)\n"
 )
+OneRequest = but(TEST, "[(2.0, 0.3), (-2.0, -0.3), (0.2, 0.2)]", "[(2.0, 0.3)]")
+OnlyTheLast = but(TEST, "bench.wait(0.5) == [speed]", "bench.wait(0.5)[-1:] == [speed]")
 SmallRequests = but(TEST, "[(2.0, 0.3), (-2.0, -0.3), (0.2, 0.2)]", "[(0.1, 0.1), (0.2, 0.2)]")
 OtherTopics = but("speed_guard/test/conftest.py", "/front/driven", "/front/speed")
 WaitsForever = tests(f"""\
@@ -216,7 +228,7 @@ from pathlib import Path
 
 def test_the_text():
     text = Path(__file__).parents[1].joinpath("launch/guard.launch.py").read_text()
-    for line in ('executable="limiter"', 'namespace="front"', '{"limit": 0.3}', '("request", "wanted")'):
+    for line in ('executable="limiter"', 'namespace="front"', '"limit": 0.3', '("request", "wanted")'):
         assert line in text
 """)
 ComparesTheText = tests(f"""\

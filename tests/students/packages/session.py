@@ -118,6 +118,10 @@ Ctrl-C
 Ctrl-C after 1.5
 """
 )
+InDomain7 = typed(RIGHT.replace("--world room", "--world room --domain 7").replace("ID=42", "ID=7"))
+GuessesFirst = but(  # a person ends what waits for a name that isn't there
+    f'{CALL} "{{data: true}}"', f'{CALL.replace("patrol", "start")} "{{data: true}}"\n{CALL} "{{data: true}}"'
+)
 
 NotBuilt = but("colcon build --packages-select watchman\n", "")
 BuiltElsewhere = but("cd ws\n", "cd ws/src\n")
@@ -131,6 +135,10 @@ SourcedBefore = typed(
     RIGHT.replace("source install/setup.bash\n", "").replace("cd ws\n", "cd ws\nsource install/setup.bash\n")
 )
 NoDomain = but(SET_UP + "\n" + START, START)
+ByTheVariable = typed(
+    RIGHT.replace("python -m sim", "export ROS_DOMAIN_ID=7\npython -m sim").replace("ID=42", "ID=7")
+)
+OtherDomain = but("--world room", "--world room --domain 7")
 NoDomainThere = but(SET_UP + "\nros2 node", "ros2 node")
 MisspeltPackage = but("run watchman watch", "run watchmen watch")
 MisspeltProgram = but("run watchman watch", "run watchman watsh")

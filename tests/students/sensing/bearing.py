@@ -10,6 +10,7 @@ from geometry_msgs.msg import PointStamped, Vector3Stamped
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from sensor_msgs.msg import Image
+from std_msgs.msg import Header
 
 
 class Finder(Node):
@@ -48,9 +49,12 @@ class Finder(Node):
         return math.atan(1 - 2 * column / width)
 
     def publish(self, header, bearing):
-        answer = self.type(header=header)
+        answer = self.type(header=self.header(header))
         answer.vector.z = float(bearing)
         self.publisher.publish(answer)
+
+    def header(self, of_image):
+        return Header(stamp=of_image.stamp, frame_id="camera_link")
 
 
 class HalvesInstead(Finder):
@@ -125,7 +129,7 @@ def by_hand():
                     columns.append(column)
         if len(columns) > 15:
             answer = Vector3Stamped()
-            answer.header.stamp, answer.header.frame_id = image.header.stamp, image.header.frame_id
+            answer.header.stamp, answer.header.frame_id = image.header.stamp, "camera_link"
             middle = sorted(columns)[len(columns) // 2] + 0.5
             answer.vector.z = math.atan2(image.width / 2 - middle, image.width / 2)
             publisher.publish(answer)
@@ -166,6 +170,13 @@ class MeanOfAll(Finder):
 
     def middle(self, columns):
         return columns.mean() + 0.5
+
+
+class TallestColumn(Finder):
+    """The column with the most red pixels."""
+
+    def middle(self, columns):
+        return np.bincount(columns).argmax() + 0.5
 
 
 class Overflows(Finder):
@@ -218,6 +229,14 @@ class WidthOfOneCamera(Finder):
         return super().bearing(column, 640)
 
 
+class SeesTheLeftOnly(Finder):
+    """Most posts get no message."""
+
+    def publish(self, header, bearing):
+        if bearing > 0.5:
+            super().publish(header, bearing)
+
+
 class OnePixelIsEnough(Finder):
     least = 1
 
@@ -251,16 +270,21 @@ class NoHeader(Finder):
         self.publisher.publish(answer)
 
 
+class CopiesTheFrame(Finder):
+    """The image's frame is the optical one."""
+
+    def header(self, of_image):
+        return of_image
+
+
 class FrameOfItsOwn(Finder):
-    def publish(self, header, bearing):
-        header.frame_id = "base_link"
-        super().publish(header, bearing)
+    def header(self, of_image):
+        return Header(stamp=of_image.stamp, frame_id="finder")
 
 
 class NoFrame(Finder):
-    def publish(self, header, bearing):
-        header.frame_id = ""
-        super().publish(header, bearing)
+    def header(self, of_image):
+        return Header(stamp=of_image.stamp)
 
 
 class ReshapesByWidth(Finder):
@@ -306,7 +330,7 @@ class OtherType(Finder):
     type = PointStamped
 
     def publish(self, header, bearing):
-        answer = PointStamped(header=header)
+        answer = PointStamped(header=self.header(header))
         answer.point.z = bearing
         self.publisher.publish(answer)
 

@@ -77,8 +77,17 @@ def main_as_in_tutorials(args=None):
             rclpy.try_shutdown()
 
 
+class AllAtOnce(Stopper):
+    """A design of its own: numpy, and a comparison that becomes the speed."""
+
+    def look(self, msg):
+        command = Twist()
+        command.linear.x = 0.3 * float((np.array(msg.ranges) > 1.0).all())
+        self.publisher.publish(command)
+
+
 class AheadOnly(Stopper):
-    """A design of its own: looks at 21 rays with numpy, and at nothing else."""
+    """Looks at 21 rays, and at nothing else."""
 
     def look(self, msg):
         ranges = np.array(msg.ranges)
@@ -88,7 +97,7 @@ class AheadOnly(Stopper):
 
 
 class OneRay(Stopper):
-    """Straight ahead: enough before a flat wall."""
+    """Straight ahead: enough before a flat wall, and for nothing else."""
 
     async def look(self, msg):
         self.publisher.publish(Twist() if msg.ranges[0] < 1.0 else self.ahead())
