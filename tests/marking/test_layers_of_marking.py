@@ -56,7 +56,7 @@ def test_the_core_imports_optional_packages_only_when_they_are_used():
 def test_without_the_optional_packages_the_core_can_be_imported_and_other_commands_are_not_offered():
     command = [sys.executable, "-c", BLOCKED]
     done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
-    usage = "usage: python -m grader mark ASSIGNMENT [--help]\n"
+    usage = "usage: python -m grader mark ASSIGNMENT | --check [--help]\n"
     usage += "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
     assert (done.stdout, done.stderr, done.returncode) == (usage + "0 2\n", usage, 0)
 

@@ -27,7 +27,8 @@ INCLUDED = (
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
 MARKING_EXCLUDED = (
-    *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "spreadsheet.py"),
+    *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "self_check.py"),
+    "spreadsheet.py",
     "judge/patrol_faults.py",
     *("extras/dask_cluster", "extras/hub", "extras/learning_platform", "extras/receipts"),
 )

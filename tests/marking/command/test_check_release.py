@@ -126,7 +126,7 @@ def test_a_gradebook_with_other_cells_or_points_says_which(course):
 
 def test_a_test_cell_that_grades_no_exercise_is_refused_before_anything_is_marked(course):
     for folder in (course.source(ASSIGNMENT), course.release(ASSIGNMENT)):
-        edit(folder / "nodes.ipynb", test_line="assert Line == 2")
+        edit(folder / "nodes.ipynb", test_line="unknown.line.grade(Line)")
     assert problem(check_release, course, ASSIGNMENT, KNOWN).startswith(
         "The test cell `test_line` can't be marked here: expected "
     )

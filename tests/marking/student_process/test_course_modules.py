@@ -66,8 +66,9 @@ THERE = {
     "checks.frames": ("Broadcast between", "which transforms were published when"),
     "checks.interface_definitions": ("InterfacePart _form _lines _part _read _reason read_definition",
                                      "reads what a student wrote"),
-    "checks.ci_workflow": ("_commands _fails_with_a_test _has_ros _names _runs_in_order _steps read_workflow "
-                           "require_tests", "reads what a student wrote"),
+    "checks.ci_workflow": ("_action _commands _fails_with_a_test _has_files _has_ros _names _ready_made "
+                           "_runs_in_order _sources_ros _steps _tests_found read_workflow require_tests",
+                           "reads what a student wrote"),
     "checks.cmake_lists": ("Blocks CMakeCommand _all_hold _holds _is_simple _is_true _put_in _split _tokens "
                            "_unread _written read_commands", "reads what a student wrote"),
     "checks.joints": ("JointLimits _cross _filled", "a margin to limits, and points between points"),
