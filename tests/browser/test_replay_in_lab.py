@@ -103,7 +103,7 @@ def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
     check_time_link(picture)
     picture.screenshot("replay-exported")
     # nbconvert's own: for formulas, and for the sliders that a notebook has saved
-    own = ("https://cdnjs.cloudflare.com/", "https://cdn.jsdelivr.net/")
+    own = ("https://cdnjs.cloudflare.com/", "https://unpkg.com/")
     assert all(url.startswith(("file:", "data:", *own)) for url in requests)
     context.close()
 
