@@ -8,7 +8,7 @@ TURNED = 0.05  # rad; measured: in 12 drives of 60 s with 1 to 28 contacts the y
 class OdometryError:
     """An estimate of the error: 0 until something touches the robot, because its wheels never slip otherwise.
 
-    While something touches it, all that the wheels roll may be slip, and the heading may change a little.
+    While something touches it, all that the wheels roll may be lost, and the heading may change a little.
     From then on each step may go aside.
 
     Attributes:
