@@ -134,7 +134,16 @@ def _uses(other: ModuleType, module: str | None) -> bool:
     values = [
         each for each in list(vars(other).values()) if isinstance(each, type | FunctionType | ModuleType)
     ]
-    return any(module in (each.__name__, getattr(each, "__module__", None)) for each in values)
+    return any(_text_of(each, name) == module for each in values for name in ("__name__", "__module__"))
+
+
+def _text_of(thing: Any, name: str) -> str:
+    """An attribute that is a text; "" without one, and for a metaclass that raises."""
+    try:
+        value = getattr(thing, name, "")
+    except Exception:  # of a student's metaclass
+        return ""
+    return value if type(value) is str else ""
 
 
 def _entities(node: Node) -> list[Any]:

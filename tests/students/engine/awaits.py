@@ -128,3 +128,16 @@ def stays_with_a_task():
         await Future()
 
     executor.spin_until_future_complete(executor.create_task(forever()))
+
+
+class Secretive(type):
+    """A metaclass that raises; the search for code that completes a future meets it here."""
+
+    def __getattribute__(cls, name):
+        if name in ("__name__", "__module__"):
+            raise ValueError(name)
+        return super().__getattribute__(name)
+
+
+class Unnamable(metaclass=Secretive):
+    pass
