@@ -18,6 +18,7 @@ from grader.diagnosis import (
     sent_transforms,
     services,
     synchronizers,
+    turning,
     two_executors,
 )
 from grader.diagnosis.bundled import as_course_programs
@@ -88,6 +89,7 @@ FLAWS = (
     driving.two_drivers,
     driving.rare_commands,
     driving.left_driving,
+    turning.endless_turn,
     program_end.ends_in_error,
     names.silent_rosout,
 )

@@ -47,7 +47,7 @@ class VelocityCommand(NamedTuple):
 
 def refused_command(recording: Recording) -> str:
     """A command that is not a number: the robot refuses it."""
-    for topic, commands in _of_robots(recording):
+    for topic, commands in of_robots(recording):
         for bad in commands:
             if not (math.isfinite(bad.v) and math.isfinite(bad.w)):
                 rays = rays_without_distance(recording, bad.sender, bad.stamp)
@@ -66,7 +66,7 @@ def drives_against_it(recording: Recording) -> str:
         if (contact.end or recording.ended.stamp) < soon or _way(recording, contact.stamp, soon) > _TYPO:
             continue
         wanted = -1 if contact.side == "back" else 1
-        for topic, commands in _of_robots(recording):
+        for topic, commands in of_robots(recording):
             sent = (command for command in commands if not recording.is_course_node(command.sender))
             meant = [command for command in sent if contact.stamp < command.stamp < soon]
             if topic == "/cmd_vel" and meant and all(command.v * wanted > 0 for command in meant):
@@ -88,7 +88,7 @@ def _way(recording: Recording, begin: Seconds, end: Seconds) -> float:
 
 def two_drivers(recording: Recording) -> str:
     """Two nodes that command one robot, each against the other."""
-    for topic, commands in _of_robots(recording):
+    for topic, commands in of_robots(recording):
         fights = [
             (one, other)
             for one, other, again in zip(commands, commands[1:], commands[2:], strict=False)
@@ -109,7 +109,7 @@ def two_drivers(recording: Recording) -> str:
 def rare_commands(recording: Recording) -> str:
     """Commands so far apart that the robot stops by itself between them."""
     timeout = _timeout(recording)
-    for topic, commands in _of_robots(recording):
+    for topic, commands in of_robots(recording):
         passing_on = _passing_on(recording, topic)
         pauses = [
             after.stamp - before.stamp
@@ -151,7 +151,7 @@ def last_command_that_moves(recording: Recording) -> str:
 
 def still_obeyed(recording: Recording, stamp: Seconds) -> str:
     """The hint where the robot moves at a time because nothing followed a command that moves it; or ""."""
-    for topic, commands in _of_robots(recording):
+    for topic, commands in of_robots(recording):
         last = next((command for command in reversed(commands) if command.stamp <= stamp), None)
         if last and last.moves and stamp - last.stamp > _SILENT:
             return (
@@ -167,7 +167,7 @@ def _command_text(topic: str, last: VelocityCommand) -> str:
 
 def _left(recording: Recording) -> Iterator[tuple[str, VelocityCommand]]:
     """The topics whose last command is no stop, and that command."""
-    for topic, commands in _of_robots(recording):
+    for topic, commands in of_robots(recording):
         last = commands[-1]
         if last.moves and recording.ended.stamp - last.stamp > _SILENT + 1e-6:
             yield topic, last
@@ -182,7 +182,7 @@ def _passing_on(recording: Recording, topic: str) -> set[str]:
     return {end.node for end in recording.graph.subscriptions() if end.type == _TWIST and end.name != topic}
 
 
-def _of_robots(recording: Recording) -> Iterator[tuple[str, list[VelocityCommand]]]:
+def of_robots(recording: Recording) -> Iterator[tuple[str, list[VelocityCommand]]]:
     """The topic of each robot's commands, with those of the student's nodes among them, if there are any."""
     for end in recording.graph.subscriptions():
         if end.type != _TWIST or end.node not in recording.course_nodes or not end.node.endswith("/robot"):

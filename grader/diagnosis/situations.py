@@ -8,6 +8,7 @@ from grader.diagnosis.filter_situations import filter_callback, filter_input
 from grader.diagnosis.other_types import other_type
 from grader.diagnosis.package_rules import absent_launch_file, own_module
 from grader.diagnosis.parameter_files import mixed_list, yaml_boolean
+from grader.diagnosis.ray_angles import angles_of_arange
 from grader.diagnosis.rays import rays_without_distance
 from grader.diagnosis.ros_situations import (
     asyncio_pause,
@@ -52,6 +53,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or other_type(error, recording)
         or _not_there(error)
         or _no_distance(error, recording)
+        or angles_of_arange(error, recording)
         or filter_callback(error)
         or filter_input(error)
         or invalid_transition(error, recording)

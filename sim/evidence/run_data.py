@@ -62,6 +62,8 @@ class RunData:
     shared: set[str] = field(default_factory=set)  # names that a course node and a student's node both have
     course_errors: list[CallbackError] = field(default_factory=list)  # raised in programs of the course
     end_errors: list[CallbackError] = field(default_factory=list)  # left a main() after the Ctrl-C at the end
+    end_prints: list[tuple[Seconds, str]] = field(default_factory=list)  # went to stdout after that
+    end_logs: list[LogLine] = field(default_factory=list)  # were written after that
     network: Network | None = None  # between hosts; None where all programs run on one
     hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network

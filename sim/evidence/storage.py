@@ -37,7 +37,7 @@ _KEYS = {
     "course_errors": "failures",
 }
 # Fields that came later than the format: older files don't have them.
-ADDED = "node_facts", "order", "departures", "end_errors"
+ADDED = "node_facts", "order", "departures", "end_errors", "end_prints", "end_logs"
 _YES = {True: "yes", False: "no"}
 _D = TypeVar("_D", bound=RunData)
 PLAIN = (float, int, str, bool, bytes, Any)

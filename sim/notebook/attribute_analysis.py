@@ -142,13 +142,13 @@ def writes(parts: Iterable[ast.AST]) -> Iterator[str]:
 def guards(parts: Iterable[ast.AST], methods: Methods) -> Iterator[str]:
     """The attributes that this code tests, directly, by a local name, or in a method that a test calls."""
     for part in parts:
-        aliases = _aliases(part)
+        known = aliases(part)
         for test in tests_in(part):
             inside = [test, *(m for name in called_names(test, methods) for m in reached(name, methods))]
             yield from reads(inside)
             for node in ast.walk(test):
                 if isinstance(node, ast.Name):
-                    yield from aliases.get(node.id, ())
+                    yield from known.get(node.id, ())
 
 
 def tests_in(part: ast.AST) -> Iterator[ast.AST]:
@@ -178,7 +178,7 @@ def at_once(part: ast.AST) -> Iterator[ast.AST]:
         yield part
 
 
-def _aliases(part: ast.AST) -> dict[str, set[str]]:
+def aliases(part: ast.AST) -> dict[str, set[str]]:
     """Local names, each with the attributes in the expressions that it was assigned."""
     found: dict[str, set[str]] = {}
     for node in ast.walk(part):

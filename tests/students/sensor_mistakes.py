@@ -8,6 +8,7 @@ from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
 from rclpy.time import Time
 from sensor_msgs.msg import Imu, LaserScan
 
@@ -165,3 +166,46 @@ class LooksBackFromTimeZero(Looker):
 class ComparesWithTheSystemsTime(Looker):
     def look(self, scan, imu):
         return self.get_clock().now() < Time(seconds=3)
+
+
+class ReadsAngles(Node):
+    """Right: it counts the rays of the robot's scans."""
+
+    def __init__(self):
+        super().__init__("angles")
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+
+    def on_scan(self, scan):
+        self.use(np.array(scan.ranges), self.angles(scan))
+
+    def angles(self, scan):
+        return scan.angle_min + np.arange(len(scan.ranges)) * scan.angle_increment
+
+    def use(self, ranges, angles):
+        return ranges * np.cos(angles)
+
+
+class OneAngleShort(ReadsAngles):
+    def angles(self, scan):
+        return np.arange(scan.angle_min, scan.angle_max, scan.angle_increment)
+
+
+class AngleOfEachRay(OneAngleShort):
+    def use(self, ranges, angles):
+        return [angles[ray] for ray in range(len(ranges))]
+
+
+class AnglesOfNearRays(OneAngleShort):
+    def use(self, ranges, angles):
+        return angles[ranges < 1.0]
+
+
+class AnglesInAList(ReadsAngles):
+    def on_scan(self, scan):
+        angles = np.arange(scan.angle_min, scan.angle_max, scan.angle_increment).tolist()
+        return [angles[ray] for ray, _ in enumerate(scan.ranges)]
+
+
+class OneAngleShortAndAnotherIndex(OneAngleShort):
+    def use(self, ranges, angles):
+        return [1.0, 2.0][2]

@@ -15,6 +15,7 @@ from rclpy.signals import SignalHandlerOptions
 from sim.ros.engine.running_program import SharedContext
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
+from sim.ros.parameter_sources import competing_values
 
 
 @hook(_rclpy, "Context", "two real contexts of one process would not discover each other")
@@ -98,6 +99,11 @@ def node_init(original: Callable) -> Callable:
         run.recorder.node_created(self)
         if not self._allow_undeclared_parameters:
             run.recorder.parameters(self, self._parameter_overrides, declared=False)
+        if not process.from_course:
+            taken = {name: parameter.value for name, parameter in self._parameter_overrides.items()}
+            full_name = self.get_fully_qualified_name()
+            for level, line in competing_values(process.global_arguments, full_name, taken):
+                run.output.log(level, "parameters", line)
         return None
 
     return __init__

@@ -42,9 +42,14 @@ class SimProcessStarter:
     """
 
     def __init__(self, run: Any) -> None:
-        self.run, self.error, self.write_log, self._numbers = run, None, run.output.log, count(1)
+        self.run, self.error, self.write_log, self._numbers = run, None, self._log, count(1)
         self.pid = run.programs.index(run.current.process) + 1
         self._bundled: dict[str, Callable[[], None]] = {}
+
+    def _log(self, *line: Any) -> None:
+        """Record a line of launch's, but for the end of the run, which cancels launch's task."""
+        if self.run.recorder.open:
+            self.run.output.log(*line)
 
     def find_bundled(self, package: str, name: str) -> str | None:
         """As launch's `ProcessStarter`. Raises ExecutableNotFound."""

@@ -149,17 +149,18 @@ class Recorder(RecorderBase):
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't recorded."""
-        if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
+        lines = self.recording.end_logs if self.ending else self.recording.logs
+        if not (self.open or self.ending) or len(lines) >= MAX_LOG_LINES:
             return None
         line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_course_node())
-        self.recording.logs.append(line)
+        lines.append(line)
         return line
 
     def add_stdout(self, text: str) -> None:
         """Student code wrote to stdout."""
         self._printed += len(text)
-        if self.open and self._printed < MAX_PRINTED:
-            self.recording.prints.append((self.now, text))
+        if self._printed < MAX_PRINTED and (self.open or self.ending):
+            (self.recording.end_prints if self.ending else self.recording.prints).append((self.now, text))
 
     def add_stderr(self, text: str) -> None:
         """Student code, or a library that it called, wrote to stderr."""
@@ -235,7 +236,7 @@ class Recorder(RecorderBase):
         return CallbackError(self.now, name, callback, type(error).__name__, text, traceback)
 
     def close(self) -> None:
-        """The run is over: what student code does while it ends is no evidence, but what its end raises."""
+        """The run is over: only what programs still print, log and raise is kept, and is no evidence."""
         self.open, self.ending = False, True
         self._known.clear()
         self.declared.clear()

@@ -72,6 +72,19 @@ def test_a_program_has_time_to_end_in_which_the_world_does_not_move():
     assert (recording.stamp, recording.path[-1].stamp) == (1.0, 1.0)
 
 
+def test_what_main_prints_and_logs_after_ctrl_c_is_shown_and_recorded_apart(capsys):
+    recording = run(after_interrupt.says_goodbye, seconds=1)
+    assert "".join(text for _, text in recording.end_prints) == "interrupted\n"
+    assert [tuple(line) for line in recording.end_logs] == [(1.5, "WARN", "counter", "goodbye", False)]
+    assert (recording.prints, recording.logs) == ([], [])
+    assert capsys.readouterr().out == "interrupted\n[WARN] [1.500] [counter]: goodbye\n"
+
+
+def test_a_thread_that_is_ended_by_force_writes_nothing():
+    recording = run(after_interrupt.never_ends, seconds=1, quiet=True)
+    assert (recording.end_prints, recording.end_logs) == ([], [])
+
+
 def test_a_program_that_does_not_end_in_time_is_ended_by_force():
     recording = run(after_interrupt.never_ends, seconds=1, quiet=True)
     assert (recording.end_errors, recording.ended.reason) == ([], "time")

@@ -246,6 +246,18 @@ def pauses_at_the_end():
         raise ValueError("after the pause") from None
 
 
+def says_goodbye():
+    rclpy.init()
+    node = Counter()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        print("interrupted")
+    finally:
+        time.sleep(0.5)
+        node.get_logger().warning("goodbye")
+
+
 def never_ends():
     rclpy.init()
     while True:
