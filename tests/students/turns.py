@@ -79,7 +79,7 @@ class TurnsInItsSubscription(Node):
 
 
 class SpinsAndLogs(Turns):
-    """Right: turns for ever, and logs its heading."""
+    """Right: turns forever, and logs its heading."""
 
     def tick(self):
         if self.yaw is not None:
