@@ -7,6 +7,7 @@ from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rcl_interfaces.srv import GetParameters
 from rclpy.action import ActionServer
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 
 from sim import Process
@@ -108,6 +109,31 @@ def launch_of_a_taker():
 
 def launch_of_a_declarer():
     return Process(DeclaresWhatIsGiven, parameters={"mass": 2.0})
+
+
+class DeclaresInOnConfigure(LifecycleNode):
+    """Right: its manager, which is not there, configures it later."""
+
+    def __init__(self):
+        super().__init__("arm")
+
+    def on_configure(self, state):
+        self.declare_parameter("robot", "a")
+        return TransitionCallbackReturn.SUCCESS
+
+
+def launch_of_an_unconfigured_node():
+    return Process(DeclaresInOnConfigure, parameters={"robot": "b"})
+
+
+class ConfiguresItself(DeclaresInOnConfigure):
+    def __init__(self):
+        super().__init__()
+        self.trigger_configure()
+
+
+def launch_of_a_configured_node():
+    return Process(ConfiguresItself, parameters={"robot": "b"})
 
 
 class AwaitsInItsGroup(Node):

@@ -131,6 +131,8 @@ def test_a_cause_is_explained(students, sentence):
         ((service_misfits.launch_with_parameters,), None),
         ((service_misfits.launch_of_a_taker,), None),
         ((service_misfits.launch_of_a_declarer,), None),
+        ((service_misfits.launch_of_an_unconfigured_node,), None),
+        ((service_misfits.launch_of_a_configured_node,), None),
         ((actions.Server, actions.Client), None),
         ((actions.Server, actions.Greedy), None),
         ((actions.Aborting, actions.Client), None),

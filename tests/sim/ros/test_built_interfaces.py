@@ -9,6 +9,7 @@ from rclpy.node import Node
 from rclpy.serialization import deserialize_message, serialize_message
 
 from sim import Recording, run, source
+from sim.ros.recorder.tracebacks import student_frames
 from tests.sim.ros.workspaces import as_it_was, build, with_interfaces
 
 pytestmark = pytest.mark.soak  # rosidl and its C++ take half a minute
@@ -73,5 +74,9 @@ def test_a_second_version_and_the_first_again_are_used_without_a_restart(tmp_pat
             assert deserialize_message(serialize_message(message), type(message)) == message
             source(workspace / "install" / "setup.bash")
             assert type(message) is types()[0]  # nothing was built: nothing is loaded anew
+        with pytest.raises(AssertionError) as caught:
+            types()[1].Request(nope=[])
+        (frame,) = student_frames(caught.value)
+        assert (frame.filename, frame.line) == (__file__, "types()[1].Request(nope=[])")
     for name in [name for name in sys.modules if name.startswith("my_interfaces")]:
         del sys.modules[name]

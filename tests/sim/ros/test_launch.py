@@ -247,6 +247,22 @@ def test_a_command_that_is_not_python_is_refused_with_advice(package, tmp_path, 
     assert line.text == f"exception occurred while executing process: {error.text}"
 
 
+def test_programs_with_a_window_are_left_out_with_a_warning_and_the_others_run(tmp_path):
+    windows = (("rviz2", "rviz2"), ("rqt_graph", "rqt_graph"), ("plotjuggler", "plotjuggler"))
+    nodes = [f"Node(package={package!r}, executable={name!r})" for package, name in windows]
+    talker = f"ExecuteProcess(cmd=['python3', '{tmp_path}/talker.py'])"
+    recording = run(description(tmp_path, *nodes, talker), seconds=1, quiet=True)
+    assert [line.text for line in recording.logs if line.level == "WARN"] == [
+        "rviz2 is left out. `rviz2` (shows what robots see) is a ROS package that the course does not "
+        "include. play(...) shows a run, and recording.replay() shows it again.",
+        "rqt_graph is left out. `rqt_graph` (draws the ROS graph) is a ROS package that the course does not "
+        "include. plot_graph(recording) of sim.view draws it, and so does play(...).",
+        "plotjuggler is left out. `plotjuggler` only shows something in a window, and the course has none.",
+    ]
+    assert [line.text for line in recording.logs if line.node == "talker"] == ["hello []"]
+    assert (recording.errors, recording.graph.nodes, recording.ended.reason) == ([], ["/talker"], "time")
+
+
 @pytest.mark.parametrize(
     ("words", "text"),
     [

@@ -38,6 +38,12 @@ def test_an_answer_comes_at_once(adder, customer):
     assert (recording.errors, recording.stderr) == ([], "")
 
 
+def test_a_library_may_send_the_response_that_its_callback_does_not_return():
+    recording = run(services.AnswersInPairs, services.until_future_complete, seconds=3, quiet=True)
+    assert [call.response.sum for call in recording.calls] == [5]
+    assert recording.errors == []
+
+
 def test_a_client_waits_for_a_late_server():
     """rclpy looks for the server every 0.25 s."""
     recording = run(services.until_future_complete, services.late_adder, seconds=4, quiet=True)

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from grader import tell
 from sim import Process, executable, run
 from sim.ros.launching import files
 from tests.sim.ros.evidence import logged
@@ -123,9 +124,7 @@ def test_the_picture_shows_the_first_pond_and_the_other_has_its_own(mimicked):
     last = mimicked.messages("/turtlesim1/turtle1/pose")[-1].message
     assert mimicked.path[-1][1:3] == pytest.approx((last.x, last.y), abs=0.1)
     assert mimicked.drawing.ground == (69, 86, 255)
-    colors = [
-        mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)
-    ]
+    colors = [mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)]
     assert colors == [69, 200]
     texts = [line.text for line in mimicked.logs if line.node == "launch"]
     assert texts == [TAKEN, ONE_MORE]
@@ -160,6 +159,17 @@ def test_the_world_s_pond_is_reset_when_another_program_takes_it_over():
     recording = run(turtles.Driver, late, world="turtlesim", seconds=3.1, quiet=True)
     assert recording.path[-1][1:3] == pytest.approx((5.544, 5.544), abs=0.01)
     assert TAKEN in [line.text for line in recording.logs]
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_turtlesims_of_a_launch_file_beside_the_world_s_own_are_no_mistake(count, tmp_path, capsys):
+    nodes = ["Node(package='turtlesim', executable='turtlesim_node')"]
+    nodes += ["Node(package='turtlesim', executable='turtlesim_node', namespace='other')"]
+    path = file(tmp_path, "sims.launch.py", ", ".join(nodes[:count]))
+    recording = run(path, world="turtlesim", seconds=3, quiet=True)
+    assert [line.text for line in recording.logs if line.node == "launch"] == [TAKEN, ONE_MORE][:count]
+    tell(recording)
+    assert capsys.readouterr().out == "No error. All 3 s were run.\n"
 
 
 def test_the_event_handler_tutorial_gets_output_and_exits_of_programs(tmp_path):

@@ -234,6 +234,19 @@ def parameter_services():
     node.get_logger().info(f"set {future.result().results[0].successful}")
 
 
+class AnswersInPairs(Node):
+    """Answers with a pair, which its own send_response takes apart, as a library for asyncio does."""
+
+    def __init__(self):
+        super().__init__("adder")
+        self.service = self.create_service(AddTwoInts, "add", lambda request, response: (response, 5))
+        self.send, self.service.send_response = self.service.send_response, self.send_pair
+
+    def send_pair(self, pair, header):
+        response, response.sum = pair
+        self.send(response, header)
+
+
 class WatchesItself(Node):
     """Listens to what its own service and client publish of each call."""
 
