@@ -1,6 +1,7 @@
 """Bags that programs write and read with rosbag2_py, as in the official tutorials."""
 
 import os
+import shutil
 import sqlite3
 from pathlib import Path
 
@@ -185,6 +186,13 @@ def test_a_node_records_in_a_run_and_its_bag_is_whole_afterwards(tmp_path, monke
     recording = run(executable("demo_nodes_py", "talker"), Recorder, seconds=3.5, quiet=True)
     assert recording.errors == []
     assert texts(opened_reader("my_bag")) == [f"Hello World: {number}" for number in range(3)]
+
+
+def test_a_writer_whose_folder_is_gone_ends_silently(tmp_path, capfd):
+    writer = opened_writer(tmp_path / "bag")
+    shutil.rmtree(tmp_path / "bag")
+    del writer
+    assert capfd.readouterr() == ("", "")
 
 
 def test_what_ros2_bag_recorded_is_read(tmp_path, monkeypatch):

@@ -97,7 +97,7 @@ def test_a_recording_says_what_it_is(driven):
     assert repr(driven) == (
         f"<Recording of 3 s: {len(driven.published)} messages on {len(driven.topics)} topics, "
         f"{len(driven.logs)} log lines, 1 errors, ended: error; "
-        "ZeroDivisionError: division by zero (in InTimer.tick, line 25, at 1 s)>"
+        "ZeroDivisionError: division by zero (in InTimer.tick, line 26, at 1 s)>"
     )
     assert Recording().ended.reason == "running"
 

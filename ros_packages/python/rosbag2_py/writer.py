@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -120,8 +121,9 @@ class SequentialWriter:
         MetadataIo().write_metadata(str(self._folder), metadata)
 
     def __del__(self) -> None:
-        if hasattr(self, "_files"):
-            self.close()
+        with contextlib.suppress(OSError):  # its folder may be gone
+            if hasattr(self, "_files"):
+                self.close()
 
     def _check_open(self, what: str) -> _File:
         if self._file is None:

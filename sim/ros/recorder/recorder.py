@@ -38,6 +38,7 @@ from sim.ros.messages.codec import type_name
 from sim.ros.recorder.action_goals import Goals
 from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import Calls
+from sim.ros.recorder.expected_errors import is_expected
 from sim.ros.recorder.publish_calls import calls_publish
 from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.recorder.running import RunningCallback, callback_name
@@ -177,8 +178,11 @@ class Recorder(RecorderBase):
             )
 
     def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
-        """An exception left a callback, a thread or a main(). The same one is recorded once."""
-        if not isinstance(error, NO_FAULT):
+        """An exception left a callback, a thread or a main(). The same one is recorded once.
+
+        One that a callback raises to end `spin()`, and that is caught there by its name, is not recorded.
+        """
+        if not isinstance(error, NO_FAULT) and not is_expected(error):
             self._record(error, callback, node)
 
     def end_error(self, error: BaseException, program: str) -> None:

@@ -166,3 +166,17 @@ def test_an_exception_without_a_text_is_kept():
 def test_an_exception_in_a_task_names_the_task():
     recording = run(errors.InTask, seconds=3, quiet=True)
     assert raised(recording) == [(1.0, "/tasks", "InTask.work", "OSError", "no such device")]
+
+
+@pytest.mark.parametrize("program", errors.ON_PURPOSE, ids=lambda program: program.__name__)
+def test_an_exception_that_ends_spin_on_purpose_is_no_error(program):
+    recording = run(program, seconds=2, quiet=True)
+    assert (recording.errors, logged(recording)) == ([], [(0.5, "went on")])
+    assert why(recording) == ("finished", 1.5, "Every program had ended by t = 0.5 s.")
+
+
+@pytest.mark.parametrize("program", errors.CAUGHT, ids=lambda program: program.__name__)
+def test_one_that_is_caught_by_chance_or_raised_again_is_an_error(program):
+    recording = run(program, seconds=2, quiet=True)
+    assert len(recording.errors) == 1
+    assert (recording.ended.reason, logged(recording)) == ("error", [(0.5, "went on")])

@@ -1,5 +1,6 @@
 """Nodes that raise, each in another place."""
 
+import contextlib
 import os
 import sys
 import threading
@@ -285,6 +286,72 @@ def timer_callback_with_argument():
     node = Node("arguments")
     node.create_timer(1.0, lambda msg: None)
     rclpy.spin(node)
+
+
+class Finished(Exception):
+    """What a callback raises to end `spin()`."""
+
+
+def finish():
+    raise Finished
+
+
+def catches_its_own_error():
+    rclpy.init()
+    node = Node("raises")
+    node.create_timer(0.5, finish)
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, Finished):
+        node.get_logger().info("went on")
+
+
+def suppresses_an_error_raised_on_purpose():
+    rclpy.init()
+    node = Node("raises")
+
+    def tick():
+        raise RuntimeError("enough")
+
+    node.create_timer(0.5, tick)
+    with contextlib.suppress(RuntimeError):
+        rclpy.spin(node)
+    node.get_logger().info("went on")
+
+
+def catches_all_errors():
+    rclpy.init()
+    node = Node("raises")
+    node.create_timer(0.5, finish)
+    try:
+        rclpy.spin(node)
+    except Exception:
+        node.get_logger().info("went on")
+
+
+def catches_an_error_that_nobody_raised():
+    rclpy.init()
+    node = Node("raises")
+    node.create_timer(0.5, lambda: 1 / 0)
+    try:
+        rclpy.spin(node)
+    except ZeroDivisionError:
+        node.get_logger().info("went on")
+
+
+def raises_again():
+    rclpy.init()
+    node = Node("raises")
+    node.create_timer(0.5, finish)
+    try:
+        rclpy.spin(node)
+    except Finished:
+        node.get_logger().info("went on")
+        raise
+
+
+ON_PURPOSE = catches_its_own_error, suppresses_an_error_raised_on_purpose
+CAUGHT = catches_all_errors, catches_an_error_that_nobody_raised, raises_again
 
 
 def needs_argument(robot):

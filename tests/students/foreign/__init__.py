@@ -3,9 +3,12 @@
 from tests.students.foreign import (
     conditions,
     driving,
+    endings,
     executors,
+    jazzy,
     later,
     legacy,
+    libraries,
     partners,
     services,
     shapes,
@@ -28,4 +31,7 @@ CORPUS = [
     *later.CORPUS,
     *conditions.CORPUS,
     *partners.CORPUS,
+    *jazzy.CORPUS,
+    *libraries.CORPUS,
+    *endings.CORPUS,
 ]
