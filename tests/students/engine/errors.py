@@ -329,7 +329,7 @@ def catches_all_errors():
         node.get_logger().info("went on")
 
 
-def catches_an_error_that_nobody_raised():
+def catches_an_error_without_a_raise():
     rclpy.init()
     node = Node("raises")
     node.create_timer(0.5, lambda: 1 / 0)
@@ -351,7 +351,7 @@ def raises_again():
 
 
 ON_PURPOSE = catches_its_own_error, suppresses_an_error_raised_on_purpose
-CAUGHT = catches_all_errors, catches_an_error_that_nobody_raised, raises_again
+CAUGHT = catches_all_errors, catches_an_error_without_a_raise, raises_again
 
 
 def needs_argument(robot):

@@ -23,7 +23,7 @@ from std_msgs.msg import Float64, String
 
 
 class WatchesItsEndpoints(Node):
-    """Is told of each match, and of deadlines, which are met."""
+    """Logs each match, and would log a deadline that is missed."""
 
     def __init__(self):
         super().__init__("endpoints")
