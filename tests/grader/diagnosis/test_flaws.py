@@ -4,7 +4,7 @@ import pytest
 
 from grader.diagnosis import DIAGNOSES, FLAWS, GUESSES, explain, find_fault, find_flaw
 from sim import run
-from tests.students import flaws, misfits, service_misfits, silent_mistakes
+from tests.students import flaws, misfits, service_misfits, silent_mistakes, turns
 from tests.students.engine import after_interrupt, services
 
 STOP = "This robot stops by itself when no commands arrive; other robots drive on. Publish a Twist() with all zeros at the end."
@@ -107,6 +107,7 @@ def test_every_flaw_is_earned_by_some_students():
     recordings.append(run(flaws.BacksBlindly, world="room", seconds=8, quiet=True))
     recordings.append(run(after_interrupt.shuts_down_again, seconds=1, quiet=True))
     recordings.append(run(silent_mistakes.destroys_a_namesake, seconds=1, quiet=True))
+    recordings.append(run(turns.TurnsWithoutNormalizing, world="room", seconds=30, quiet=True))
     assert [flaw.__name__ for flaw in FLAWS if not any(map(flaw, recordings))] == []
     assert set(GUESSES) <= set(DIAGNOSES)
 
