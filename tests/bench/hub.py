@@ -22,6 +22,7 @@ from tests.marking.extras.hub.real_hub import COURSE, RealHub, real_hub, reason_
 ASSIGNMENT = "02_topics"
 LESSON, NOTEBOOK = f"course/{ASSIGNMENT}/lesson.ipynb", f"exercises/{ASSIGNMENT}/topics.ipynb"
 PLAYED = 60  # s
+LINUX = 500  # MB that the system itself needs
 PLAY = f"""
 import asyncio
 from sim import play
@@ -43,7 +44,8 @@ class StudentDay:
     pace: float = 0.0  # simulated seconds of `play` in each second
     validated: float = 0.0
     done: float = 0.0
-    megabytes: float = 0.0
+    lesson_megabytes: float = 0.0  # server and the lesson's kernel
+    megabytes: float = 0.0  # the assignment's kernel, too
     failures: list[str] = field(default_factory=list)
 
 
@@ -78,7 +80,7 @@ def spend_day(hub: RealHub, user: str, day: StudentDay) -> None:
     day.cells = run_notebook(kernel, client.read_notebook(LESSON), day)
     played = kernel.run(PLAY)
     day.frames, day.pace = played["comms"] / PLAYED, float(played["text"].split()[-1]) / PLAYED
-    validation = time.monotonic()
+    validation, day.lesson_megabytes = time.monotonic(), used_megabytes(user)
     second = client.start_kernel(NOTEBOOK)
     run_notebook(second, client.read_notebook(NOTEBOOK), day)
     day.validated, day.megabytes = time.monotonic() - validation, used_megabytes(user)
@@ -114,6 +116,14 @@ def own_megabytes(hub: RealHub) -> float:
     return sum(int(line.split()[0]) for line in mine if not any(word in line for word in others)) / 1e3
 
 
+def capacity(gigabytes: int, own: float, days: Sequence[StudentDay]) -> str:
+    """How many students this memory is enough for, by the medians."""
+    left = 1000 * gigabytes - LINUX - own
+    lesson = statistics.median([day.lesson_megabytes for day in days])
+    both = statistics.median([day.megabytes for day in days])
+    return f"{left / lesson:.0f}, {left / both:.0f}"
+
+
 def main(students: int = 8) -> int:
     """Print what all of them saw; returns the exit status."""
     if reason := reason_to_skip():
@@ -134,8 +144,11 @@ def main(students: int = 8) -> int:
         ["simulated seconds of `play` each second*", spread([day.pace for day in complete], 2)],
         ["validate an exercise notebook (s)*", spread([day.validated for day in complete])],
         ["from the login to the submission (s)*", spread([day.done for day in complete])],
-        ["memory of a student: server, kernels (MB)*", spread([day.megabytes for day in complete], 0)],
+        ["memory of a student: the lesson open (MB)*", spread([day.lesson_megabytes for day in complete], 0)],
+        ["memory of a student: the assignment, too (MB)*", spread([day.megabytes for day in complete], 0)],
         ["memory of the hub, the proxy and the course's server (MB)", f"{own:.0f}"],
+        *([f"students on {gigabytes} GB: with the lesson, with both", capacity(gigabytes, own, complete)]
+          for gigabytes in (4, 24)),
         ["computing time of the simulated browsers (s)", f"{sum(after[:2]) - sum(before[:2]):.0f}"],
         ["load of the machine before; its cores", f"{load:.1f}; {os.cpu_count()}"],
         ["failures; students who didn't get to the end", f"{sum(len(day.failures) for day in days)}; "
