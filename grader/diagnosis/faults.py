@@ -17,7 +17,7 @@ _NOT_FROM_STUDENT = re.compile(
     r"classes can not be instantiated|can't (run in|change the time in a run|be)\b.* simulated (time|there)"
 )
 _HINTS = {
-    "error": "Read the last line of the error first: it says what Python did not like.",
+    "error": "",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
             "something that never happens. A callback should do one small step and return.",
     "livelock": "Callbacks trigger each other without any time passing: two nodes that answer each other's "

@@ -23,7 +23,7 @@ FIELD_RULES = (
     ),
     Rule(
         "AssertionError", r"The '(\w+)' field must be of type 'bytes'",
-        "`{0}` takes one byte: a constant such as `DiagnosticStatus.WARN`, or `b'\\x01'`, and not 1.",
+        "`{0}` takes one byte, such as `b'\\x01'`, and not 1.",
     ),
     Rule(
         "AssertionError", r"The '(\w+)' field must be a sub message of type '(\w+)'",

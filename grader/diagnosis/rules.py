@@ -120,7 +120,7 @@ RULES = (
         "and so on.",
     ),
     Rule(
-        "IndexError", r"(\w+) index out of range",
+        "IndexError", r"\b(list|tuple|string|deque|array|range object)(?: assignment)? index out of range",
         "The {0} has no item with that number: the first is number 0, the last is len(...) - 1.",
     ),
     Rule(
@@ -187,6 +187,10 @@ RULES = (
     Rule(
         "ImportError", r"cannot import name '(\w+)' from '([\w.]+)'",
         "`{1}` has no `{0}`: check the spelling and the capital letters.",
+    ),
+    Rule(
+        "AttributeError", r"property '(\w+)' of '(\w+)' object has no setter",
+        "A {1} already has a property `{0}`, which can't be set: choose another name, such as `my_{0}`.",
     ),
     Rule(
         "AttributeError", rf"'(\w+)' object has no attribute '(?:{_NODE_INSIDES})'",

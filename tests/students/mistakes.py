@@ -1,16 +1,16 @@
 """Nodes with one mistake each, named by it: every exception that the diagnosis puts into words."""
 
+import math
 import threading
 import time
 
 import rclpy
-from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovariance, Twist
 from nav_msgs.msg import OccupancyGrid
 from rcl_interfaces.msg import ParameterValue
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Float64, Int32, String
+from std_msgs.msg import Bool, Byte, Float64, Int32, String
 from trajectory_msgs.msg import JointTrajectory
 
 
@@ -54,8 +54,8 @@ class NumberForBool(Talker):
 
 class NumberForByte(Talker):
     def tick(self):
-        msg = DiagnosticStatus()
-        msg.level = 1
+        msg = Byte()
+        msg.data = 1
 
 
 class WordsForNumbers(Talker):
@@ -418,3 +418,25 @@ class StartsThreadsWithoutEnd(Node):
     def work(self):
         while True:
             threading.Thread(target=time.sleep, args=(1000,)).start()
+
+
+class NamesAProperty(Talker):
+    def __init__(self):
+        super().__init__()
+        self.publishers = []
+
+
+class SetsBeyondTheLast(Talker):
+    def tick(self):
+        numbers = [1, 2]
+        numbers[2] = 3
+
+
+class RaisesInItsOwnWords(Talker):
+    def tick(self):
+        raise ValueError("the arm is too far to the left")
+
+
+class MisspellsAFunction(Talker):
+    def tick(self):
+        return math.sine(1.0)

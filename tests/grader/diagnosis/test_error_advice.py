@@ -17,7 +17,7 @@ ADVICE = {
     "converts.",
     mistakes.NumberForText: "`data` takes text: set `msg.data = 'text'`; `str(value)` converts.",
     mistakes.NumberForBool: "`data` takes True or False, not 1 or 0; `bool(value)` converts.",
-    mistakes.NumberForByte: "`level` takes one byte: a constant such as `DiagnosticStatus.WARN`, or `b'\\x01'`, and not 1.",
+    mistakes.NumberForByte: "`data` takes one byte, such as `b'\\x01'`, and not 1.",
     mistakes.WordsForNumbers: "`velocity` takes a list of floats: [0.0, 0.0].",
     mistakes.FractionsForWholeNumbers: "`data` takes a list of whole numbers: [0, 0].",
     mistakes.NumbersForNames: "`name` takes a list of strings: ['a', 'b'].",
@@ -31,6 +31,11 @@ ADVICE = {
     mistakes.NumberForSubMessage: "`linear` is a message of its own, a Vector3: set the fields inside it "
     "(`msg.linear.x = 1.0`), or assign a whole Vector3().",
     mistakes.NumberTooLarge: "`data` must be an integer in [-2147483648, 2147483647]: give it a value of that kind.",
+    mistakes.NamesAProperty: "A NamesAProperty already has a property `publishers`, which can't be set: choose another "
+    "name, such as `my_publishers`.",
+    mistakes.SetsBeyondTheLast: "The list has no item with that number: the first is number 0, the last is len(...) - 1.",
+    mistakes.RaisesInItsOwnWords: "",
+    mistakes.MisspellsAFunction: "",
     mistakes.UnknownFieldInConstructor: "This message has no field `text`. `get_fields_and_field_types()` of its "
     "class lists the fields.",
     mistakes.FieldByPosition: "The fields of a message are set by name: `String(data=...)`, or `msg = String()` and "

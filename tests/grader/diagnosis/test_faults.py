@@ -1,15 +1,18 @@
 """Hangs, livelocks, deadlocks and work that is not started yet, as real runs end with them."""
 
+from functools import partial
+
 import pytest
 from std_srvs.srv import Trigger
 
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
-from sim import run
+from grader.tell import explain_failure
+from sim import Process, run
 from sim.evidence import CallbackError, Ended, Recording, place_of
 from sim.ros.engine import guard
 from tests.students import misfits, mistakes
-from tests.students.engine import own_clocks, timing, waitables
+from tests.students.engine import errors, own_clocks, timing, waitables
 from tests.students.service_misfits import Adder, AwaitsInItsGroup
 
 
@@ -130,20 +133,26 @@ def test_an_error_without_words_and_frames_still_makes_a_sentence():
     assert find_fault(recording).saw == "KeyError: no message (in Talker.tick, at 0.5 s)"
 
 
-def test_an_attribute_error_of_unknown_form_gets_general_advice():
-    recording = Recording(
-        errors=[CallbackError(0.5, "/talker", "tick", "AttributeError", "can't set that", "")]
-    )
-    assert find_fault(recording).hint == "The name after the dot does not exist: check its spelling."
+@pytest.mark.parametrize(
+    ("program", "words"),
+    {
+        mistakes.RaisesInItsOwnWords: "ValueError: the arm is too far to the left (",
+        errors.asks_the_keyboard: "RuntimeError: input() waits for a person at the keyboard; give it lines, ",
+        errors.events_executor: "NotImplementedError: EventsExecutor can't run in simulated time. Use Single",
+        partial(Process, errors.asks_the_keyboard, stdin=[]): "EOFError: EOF when reading a line (",
+        mistakes.MisspellsAFunction: "AttributeError: module 'math' has no attribute 'sine'",
+    }.items(),
+)
+def test_where_the_words_say_enough_there_is_no_hint(program, words):
+    recording = run(program, seconds=2, quiet=True)
+    assert find_fault(recording).saw.startswith(words)
+    (line,) = explain_failure(recording)
+    assert line == find_fault(recording).saw
 
 
 def test_an_error_that_left_nothing_but_its_end_is_reported():
     recording = Recording(ended=Ended("error", 1.0, "A thread died."))
-    assert find_fault(recording) == Fault(
-        "a run to the end",
-        "A thread died.",
-        "Read the last line of the error first: it says what Python did not like.",
-    )
+    assert find_fault(recording) == Fault("a run to the end", "A thread died.", "")
 
 
 def test_an_error_in_a_package_that_was_installed_names_the_line_there():
