@@ -87,14 +87,18 @@ def stands_while_disarmed(run: Recording) -> None:
 
 
 def _begins_when_armed(run: Recording) -> None:
-    """Just before a call that arms it, the robot stands. Raises Missed if not."""
+    """Just before a call that arms it, no command moves the robot. Raises Missed if not.
+
+    A robot that still obeys an earlier command is left to `stands_while_disarmed`.
+    """
     made = course_calls(run, ARM, CALLS)
     for before, call in itertools.pairwise(made):
         if call.request.data and not before.request.data:
             begin = max(before.requested + SETTLING, call.requested - JUST)
             armed = run.during(made[1].requested + SETTLING, made[2].requested)
             hint = INVERTED if _is_inverted(run) else NO_MORE if traveled(armed) > 10 * STILL else SWITCHES
-            _stands(run, run.during(begin, call.requested), f"until {call_text(call)}", hint)
+            if not still_obeyed(run, begin):
+                _stands(run, run.during(begin, call.requested), f"until {call_text(call)}", hint)
 
 
 def _stands(run: Recording, phase: Recording, when: str, hint: str) -> None:

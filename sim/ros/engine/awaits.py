@@ -130,10 +130,12 @@ def _files(frame: FrameType) -> set[str]:
     return files
 
 
+_NAMED = (type, FunctionType, ModuleType)  # what knows in which module it was defined
+
+
 def _uses(other: ModuleType, module: str | None) -> bool:
-    values = [
-        each for each in list(vars(other).values()) if isinstance(each, type | FunctionType | ModuleType)
-    ]
+    # By their types: an object of a student's class may raise when it is asked for its `__class__`.
+    values = [each for each in list(vars(other).values()) if issubclass(type(each), _NAMED)]
     return any(_text_of(each, name) == module for each in values for name in ("__name__", "__module__"))
 
 
