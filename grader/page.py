@@ -25,6 +25,8 @@ STATUS_STYLES = {
     "skipped": ("○", "skipped", "#4a4a4a", "#eeeeee"),
     "broken": ("!", "our mistake", "#4b2a8f", "#eee7fb"),
 }
+_, _, _GREEN, _LIGHT_GREEN = STATUS_STYLES["passed"]
+FULL = f' <b style="color: {_GREEN}; background-color: {_LIGHT_GREEN}; padding: 0 4px">✔ Full points</b>'
 NO_REPLAYS: Mapping[int, str] = MappingProxyType({})
 WIDTH = 88  # characters per line in a terminal
 MOMENT = re.compile(r"\b(?:at|from|until) (\d{1,6}(?:\.\d{1,6})?) s\b")
@@ -55,6 +57,7 @@ def html(
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
         f"<b>{_escape(title)}: {format_points(points)} of {format_points(most)} points</b>"
+        f"{FULL if points >= most > 0 else ''}"
         f'{note and f"<br>{_escape(note)}"}</caption>'
         f"<thead><tr>{_heading('', '6.5em')}{_heading('What is checked')}{_heading('Points', '5em')}</tr>"
         "</thead>"
@@ -108,11 +111,14 @@ def _points(verdict: Verdict) -> str:
 
 
 def moments(verdict: Verdict) -> list[float]:
-    """The moments (s) that the text of a missed check names: what was seen, or else what was expected."""
+    """The moments (s) that the text of a missed check names: what was seen, or else what was expected.
+
+    Without any, when the part of the run began that it speaks of.
+    """
     if verdict.status != "failed":
         return []
     found = MOMENT.findall(verdict.saw) or MOMENT.findall(verdict.expected)
-    return [float(seconds) for seconds in found]
+    return [float(seconds) for seconds in found] or [verdict.begin] * (verdict.begin is not None)
 
 
 def _row(verdict: Verdict, runs: Sequence[str], below: str, replay: str) -> str:

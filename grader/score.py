@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from functools import cached_property
 from typing import Any
@@ -140,20 +140,33 @@ class Score(float):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitizer that is strict about HTML lets the table pass.
-        with redirect_stderr():
-            try:
-                _show(self.pictures)
-            except Exception as error:  # a picture is an extra: without it the points still have to be shown
-                print(f"(A picture could not be drawn: {error})")
+        _after_cell(self._show_pictures)
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
 
-
-def _show(pictures: list[tuple[str, Any]]) -> None:
-    if pictures:
+    def _show_pictures(self) -> None:
         from IPython.display import display
 
-        for caption, picture in pictures:
-            display(picture, metadata={"image/png": {"alt": caption}})
+        with redirect_stderr():
+            try:
+                for caption, picture in self.pictures:
+                    display(picture, metadata={"image/png": {"alt": caption}})
+            except Exception as error:  # a picture is an extra: without it the points still have to be shown
+                print(f"(A picture could not be drawn: {error})")
+
+
+def _after_cell(show: Callable[[], None]) -> None:
+    """Call a function when the cell has shown its result: below that, but still in its output."""
+    from IPython import get_ipython
+
+    ipython = get_ipython()
+    if ipython is None:
+        return show()
+
+    def once() -> None:
+        ipython.events.unregister("post_execute", once)
+        show()
+
+    ipython.events.register("post_execute", once)
 
 
 def _run(recording: Recording, count: str) -> str:

@@ -30,6 +30,10 @@ c.ServerApp.jpserver_extensions = {
 }
 # The course's extension (robot panel, Validate, ...) is written by hand and needs no build.
 c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
+# A closed notebook keeps its kernel of 150 to 220 MB for half an hour after the last activity. A running cell is
+# activity, and so are the frames of a robot that plays.
+c.MappingKernelManager.cull_idle_timeout = 30 * 60
+c.MappingKernelManager.cull_interval = 60
 # The course has no language server, and each start of JupyterLab would run npm to look for some.
 c.LanguageServerManager.autodetect = False
 # Terminals find colcon and ros2 in PATH, like cells. Jupyter may start a login shell by default, which would

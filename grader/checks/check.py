@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import inspect
 import math
+import traceback
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from sim.evidence import Recording
+from sim.evidence import Recording, Seconds
 
 Picture = Literal["", "path", "topics"]
 
@@ -66,6 +67,20 @@ class Missed(Exception):
         self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
         self.credit, self.picture, self.measured = fraction(credit), picture, measured
         self.typo, self.unsafe, self.about, self.because = typo, unsafe, about, because
+
+    @property
+    def begin(self) -> Seconds | None:
+        """When the part of the run began that the check looked at when it raised this; None for all of it."""
+        frames = [frame for frame, _ in traceback.walk_tb(self.__traceback__)]
+        looked_at = [
+            value
+            for frame in reversed(frames)
+            for value in frame.f_locals.values()
+            if isinstance(value, Recording)
+        ]
+        end = max((run.stamp for run in looked_at), default=0.0)
+        parts = (run.begin for run in looked_at if run.begin > 0 or run.stamp < end)
+        return next(parts, None)
 
 
 @contextmanager

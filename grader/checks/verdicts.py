@@ -49,6 +49,7 @@ class Verdict:
     run: int = 0  # index of the run it speaks of
     unsafe: bool = False  # as in Missed
     typo: tuple[str, str] | None = None  # as in Missed
+    begin: float | None = None  # as in Missed
 
     @property
     def earned(self) -> float:
@@ -173,6 +174,7 @@ class _Judging:
             missed.picture,
             unsafe=missed.unsafe,
             typo=missed.typo,
+            begin=missed.begin,
         )
 
 

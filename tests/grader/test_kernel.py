@@ -71,13 +71,13 @@ def test_nothing_of_a_test_cell_is_on_stderr(cells, source):
     assert [output for output in cells[source].outputs if output.get("name") == "stderr"] == []
 
 
-def test_the_cell_shows_a_replay_then_the_table(cells):
+def test_the_cell_shows_the_table_then_a_replay(cells):
     outputs = [out for out in cells["drive.grade(misfits.Talker)"].outputs if out.output_type != "stream"]
-    assert [output.output_type for output in outputs] == ["display_data", "execute_result"]
-    assert outputs[0].data["text/html"].startswith('<div class="ros2-replay" data-replay="')
-    assert '<img src="data:image/png;base64,iVBORw0KGgo' in outputs[0].data["text/html"]
-    assert outputs[1].data["text/plain"] == "2.5"
-    assert outputs[1].data["text/html"].startswith("<table")
+    assert [output.output_type for output in outputs] == ["execute_result", "display_data"]
+    assert outputs[1].data["text/html"].startswith('<div class="ros2-replay" data-replay="')
+    assert '<img src="data:image/png;base64,iVBORw0KGgo' in outputs[1].data["text/html"]
+    assert outputs[0].data["text/plain"] == "2.5"
+    assert outputs[0].data["text/html"].startswith("<table")
 
 
 def test_what_would_have_gone_to_stderr_is_not_lost_outside_a_run(cells):

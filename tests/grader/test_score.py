@@ -10,8 +10,9 @@ import zlib
 import nh3
 import pytest
 
-from grader import Score
-from grader.checks import Verdict
+from grader import Missed, Score, check
+from grader.checks import Verdict, arrives
+from grader.checks.verdicts import judge
 from grader.marking.gradebook.safe_html import clean
 from grader.page import STATUS_STYLES, format_points
 from grader.pictures import missed_moments
@@ -355,6 +356,26 @@ def test_a_moment_of_a_missed_check_is_a_link_where_its_run_has_a_replay():
     assert missed_moments(verdicts, 0) == [(1.5, "It is quiet. a message"), (2.5, "It stands. it moved at 2.5 s")]
     ((_, picture),) = score.pictures
     assert picture.html == recording.replay(moments=missed_moments(verdicts, 0)).html
+
+
+def test_a_miss_without_a_moment_has_the_begin_of_the_part_of_the_run_that_was_looked_at():
+    @check(points=1)
+    def waits(run):
+        "The robot stands still until it is called."
+        stands(run.during(1.0, 2.5), "until the call")
+
+    @check(points=1)
+    def comes(run):
+        "It comes to the goal."
+        arrives(run, (9.0, 0.0))
+
+    def stands(part, when):
+        raise Missed(f"a robot that stands still {when}", "it moved", picture="path")
+
+    recording = driven([(0, 0), (1, 0), (2, 0), (3, 0)])
+    verdicts = judge([waits, comes], recording)
+    assert [verdict.begin for verdict in verdicts] == [1.0, None]
+    assert missed_moments(verdicts, 0) == [(1.0, "The robot stands still until it is called. it moved")]
 
 
 def test_a_moment_of_a_run_without_a_replay_is_plain_text():

@@ -69,7 +69,7 @@ def unused_offers(score: Score) -> list[str]:
 
 
 def outputs(score: Score, count: int) -> list[dict[str, Any]]:
-    """A test cell's outputs, as Jupyter shows a score: pictures first, then the table."""
+    """A test cell's outputs, as Jupyter shows a score: the table first, then pictures."""
     bundles = []
     try:
         for caption, picture in score.pictures:
@@ -79,7 +79,7 @@ def outputs(score: Score, count: int) -> list[dict[str, Any]]:
         bundles = []
     table = {"text/plain": repr(score), "text/html": score._repr_html_()}
     shown = [{"output_type": "display_data", **item} for item in bundles]
-    return [*shown, {"output_type": "execute_result", "execution_count": count, **mime_bundle(table, {})}]
+    return [{"output_type": "execute_result", "execution_count": count, **mime_bundle(table, {})}, *shown]
 
 
 def for_instructor(text: str) -> list[dict[str, Any]]:

@@ -10,12 +10,24 @@ const MOVE_HOW = "Click the picture, then use the arrow keys or W A S D.";
 const POINT_HOW = "Click into the picture, or drag.";
 const POINT_GAP = 40; // ms, at least, between points of a drag
 const HOW = "Click the picture, then drive with the arrow keys or W A S D. Space stops the robot.";
+const BEST = "ros2-course-best-times"; // in the browser: world -> s
 const DIRECTIONS = { up: [1, 0], down: [-1, 0], left: [0, 1], right: [0, -1] };
 const SIGHT = 100; // px, the least side of a picture to drive by
 const KEYS = {
   ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right",
   KeyW: "up", KeyS: "down", KeyA: "left", KeyD: "right",
 };
+
+/** A sentence on a time (s) to the star that is the best in this browser and world; "" for the first one. */
+function comparedToBest(world, seconds) {
+  try {
+    const times = JSON.parse(localStorage.getItem(BEST) ?? "{}"), before = times[world];
+    if (!(before <= seconds)) localStorage.setItem(BEST, JSON.stringify({ ...times, [world]: seconds }));
+    return before > seconds ? ` Your best time here; before: ${before.toFixed(1)} s.` : "";
+  } catch {
+    return ""; // a page that may not store anything
+  }
+}
 
 /** Drive pad and keys: a held direction is sent at once and repeatedly; its release sends zero. */
 class Pad {
@@ -104,6 +116,7 @@ class View {
     this.trails = [];
     this.tip = null; // the path of an arm's far end
     this.reached = null; // when the goal was reached first (s)
+    this.success = ""; // the sentence about it
     this.stage = make("div", { className: "stage" });
     this.topics = make("div");
     this.rows = new Map(); // topic name -> its row; rows are kept, to preserve clicks and focus
@@ -239,6 +252,7 @@ class View {
     if (tip) this.extend(this.tip ??= [], tip[0]);
     if (this.reached === null && isAtGoal(this.world, poses)) {
       this.reached = floats[0];
+      this.success = reachedText(this.reached) + comparedToBest(this.world.name, this.reached);
       this.showEvent(this.status.ended);
     }
     this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails, tip: this.tip, reached: this.reached !== null };
@@ -288,8 +302,9 @@ class View {
     if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
     const event = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
-    const text = [this.reached ? reachedText(this.reached) : "", event].filter(Boolean).join(" ");
+    const text = [this.success, event].filter(Boolean).join(" ");
     if (text !== this.event) this.statusLine.textContent = this.event = text;
+    this.statusLine.classList.toggle("success", Boolean(this.success));
   }
 
   showTopic({ name, type, rate, count = 0 }) {

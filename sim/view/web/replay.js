@@ -167,6 +167,7 @@ class Player {
     const mark = run.marks[before(run.marks, time, stampOf)];
     const words = mark ? mark.words : "";
     if (this.statusLine.textContent !== words) this.statusLine.textContent = words;
+    this.statusLine.classList.toggle("success", mark?.kind === "goal");
     const column = Math.min(Math.floor(time / run.end * STRIP), STRIP - 1);
     for (const { cursor, strip, name } of this.strips) {
       cursor.style.left = `${100 * time / run.end}%`;

@@ -8,6 +8,7 @@ import { savePredictions } from "./predictions.js";
 import { save } from "./saving.js";
 import { navigationButtons, renameTab } from "./tabs.js";
 import { startPage } from "./start.js";
+import { showSuccess } from "./success.js";
 import { validateButton } from "./validate.js";
 
 const AFTER_RUN_ALL = 9; // index in a notebook's toolbar
@@ -54,7 +55,9 @@ export async function plugins(share) {
       // The start page shows the points of the saved notebook.
       lab.NotebookActions.executed.connect((_, { notebook, cell }) => {
         const panel = [...comms.keys()].find((each) => each.content === notebook);
-        if (panel && cell.model.getMetadata("nbgrader")?.grade) save(panel.context);
+        if (!panel) return;
+        if (cell.model.getMetadata("nbgrader")?.grade) save(panel.context);
+        showSuccess(app, panel, cell.model);
       });
     },
   }];

@@ -28,7 +28,7 @@ export function renameTab(panel) {
 }
 
 /** The next notebook: the lesson's other one, its exercises, then the next lesson or page; undefined after the last. */
-async function nextNotebook(contents, path) {
+export async function nextNotebook(contents, path) {
   const [, bridge] = PAGE.exec(path) ?? [];
   if (bridge) {
     const { content } = await contents.get(bridge);

@@ -40,7 +40,7 @@ async function validate(lab, app, panel) {
 }
 
 /** The cells with a check, each with the heading above it and its points. */
-function checksOf(cells) {
+export function checksOf(cells) {
   const checks = new Map();
   let heading = "";
   for (const cell of cells) {
@@ -124,9 +124,7 @@ class Table {
   finish(cell, result, error) {
     this.stopClock();
     const { line, name, most } = this.rows.get(cell);
-    // As in nbgrader: a number is the points, an error gives none, and a check without either gives all.
-    const value = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
-    const points = Math.min(Math.max(value, 0), most);
+    const points = pointsOf(result, error, most);
     this.earned += points;
     this.most += most;
     const note = error || (points >= most ? "✔" : points ? "in part: run its check to see why" : "run its check to see why");
@@ -138,7 +136,13 @@ class Table {
   }
 }
 
-const short = (points) => String(Math.round(points * 100) / 100);
+/** The points of a check, as in nbgrader: a number is the points, an error gives none, and a check without either gives all. */
+export function pointsOf(result, error, most) {
+  const value = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
+  return Math.min(Math.max(value, 0), most);
+}
+
+export const short = (points) => String(Math.round(points * 100) / 100);
 
 function row(kind, texts) {
   const line = document.createElement("tr");
