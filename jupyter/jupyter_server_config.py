@@ -30,7 +30,7 @@ c.ServerApp.jpserver_extensions = {
 }
 # The course's extension (robot panel, Validate, ...) is written by hand and needs no build.
 c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
-# A closed notebook keeps its kernel of 150 to 220 MB for half an hour after the last activity. A running cell is
+# A closed notebook keeps its kernel, 150 to 220 MB, for half an hour after the last activity. What runs is
 # activity, and so are the frames of a robot that plays.
 c.MappingKernelManager.cull_idle_timeout = 30 * 60
 c.MappingKernelManager.cull_interval = 60

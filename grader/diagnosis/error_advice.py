@@ -96,7 +96,11 @@ def _unknown_attribute(error: CallbackError) -> str:
         return ""
     owner, name = found.groups()
     owner = re.sub(r"_(Request|Response|Goal|Result|Feedback)$", r".\1", owner)  # as students write it
-    if error.callback.split(".")[0] == owner:
+    own = error.callback.split(".")[0] == owner
+    near = re.search(r"Did you mean: '(\w+)'", error.text)
+    if near:
+        return f"There is no `{'self.' * own}{name}`. Did you mean `{'self.' * own}{near[1]}`?"
+    if own:
         return (
             f"`self.{name}` does not exist (yet): check its spelling; set it in __init__ before it is used."
         )

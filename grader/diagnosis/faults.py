@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import linecache
 import re
 
 from grader.diagnosis.error_advice import advice
@@ -11,6 +12,7 @@ from grader.diagnosis.situations import advice_here
 from sim.evidence import CallbackError, Ended, Recording, first_error, first_line, place_of
 
 _THREAD = "thread "
+_RAISES = "raise NotImplementedError"
 # rclpy's own NotImplementedError, for SetBool() and Spin(), and that of a run for what it can't do: they
 # are no exercise that is not started.
 _NOT_FROM_STUDENT = re.compile(
@@ -70,6 +72,13 @@ def find_fault(recording: Recording) -> Fault | None:
 
 def _from_error(error: CallbackError, recording: Recording) -> Fault:
     if error.type == "NotImplementedError" and not _NOT_FROM_STUDENT.search(error.text):
+        if _is_left_over(error):
+            return Fault(
+                expected="no `raise NotImplementedError` after your code",
+                saw=f"Your code is ended by a `raise NotImplementedError` ({place_of(error)})",
+                hint="Delete the line that raises, and run this cell again.",
+                before_start=error.stamp <= 0.0,
+            )
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
             expected="your own code instead of `raise NotImplementedError`",
@@ -85,6 +94,17 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
         # A thread that crashes at once takes nothing along: main() and its nodes go on.
         before_start=error.stamp <= 0.0 and not error.callback.startswith(_THREAD),
     )
+
+
+def _is_left_over(error: CallbackError) -> bool:
+    """Whether there is code above the line that raised, and not the comment of an exercise not started."""
+    places = re.findall(r'File "([^"]+)", line (\d+), in ', error.traceback)
+    if not places:
+        return False
+    file, line = places[-1]
+    above = [text.strip() for text in linecache.getlines(file)[: int(line) - 1] if text.strip()]
+    is_code = bool(above) and not above[-1].startswith(("#", '"', "def ", "class "))
+    return is_code and _RAISES in error.traceback
 
 
 def _from_end(ended: Ended) -> Fault:

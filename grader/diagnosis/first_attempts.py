@@ -106,7 +106,7 @@ def _is_input(node: StudentNode, ran: CallbackRun, part: ast.AST) -> bool:
 
 
 def long_period(recording: Recording) -> str:
-    """A node's only timer, with a period of whole seconds, fired once or twice in the run."""
+    """A node's only timer, with a period of whole seconds, fired not more than twice in the run."""
     for timer in recording.graph.timers:
         if timer.node in recording.course_nodes or timer.period < MIN_PERIOD or timer.period % 1.0:
             continue
@@ -115,12 +115,13 @@ def long_period(recording: Recording) -> str:
             continue
         fired = [run for run in recording.callbacks if run.node == timer.node and run.kind == "timer"]
         due = int(recording.ended.stamp / timer.period + 1e-6)
-        if 0 < len(fired) <= MAX_FIRES and len(fired) == due:
-            name, tenth = fired[0].callback, timer.period / 10
+        if len(fired) <= MAX_FIRES and len(fired) == due:
+            name, tenth = timer.callback, timer.period / 10
+            ran = f"ran {_times(fired, name)}" if fired else f"would run at {timer.period:g} s, and never ran"
             return (
-                f"The timer of {timer.node} has a period of {timer.period:g} s: {name} ran "
-                f"{_times(fired, name)} in {recording.ended.stamp:.3g} s. The period is 1 / rate, in "
-                f"seconds: {tenth:g} s gives {1 / tenth:g} Hz."
+                f"The timer of {timer.node} has a period of {timer.period:g} s: {name} {ran} in "
+                f"{recording.ended.stamp:.3g} s. The period is 1 / rate, in seconds: {tenth:g} s gives "
+                f"{1 / tenth:g} Hz."
             )
     return ""
 

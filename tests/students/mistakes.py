@@ -361,6 +361,12 @@ class LoggerWithoutBrackets(Talker):
         self.get_logger.info("tick")
 
 
+class LeavesTheRaiseBelowItsCode(Talker):
+    def tick(self):
+        super().tick()
+        raise NotImplementedError()
+
+
 class NotStartedWithoutWords(Talker):
     def tick(self):
         raise NotImplementedError

@@ -10,15 +10,19 @@ import sysconfig
 import traceback
 from types import CodeType, FrameType
 
+from rclpy.node import Node
+
 from sim.course_folders import COURSE, ROS_PACKAGES
 from sim.evidence.rows import NOTE
 from sim.notebook.none_origin import none_origin
+from sim.suggestions import closest_match
 
 # Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
 _OF_COURSE = (str(COURSE / "sim"), str(ROS_PACKAGES))
 _CALLS = "callback", "_handler"  # attributes of timers and the like, and of tasks
 _WRONG_CALL = re.compile(r"^(?:\S+\.)?([\w<>]+)\(\) (?:takes|missing) ")
 _INTERFACE = re.compile(r"/(msg|srv|action)/_\w+\.py$")
+SIMILAR = 0.8  # the least similarity of an attribute that was probably meant
 _LIBRARIES = (*_OF_COURSE, *sysconfig.get_paths().values(), "<frozen ")
 
 
@@ -80,11 +84,25 @@ def student_traceback(error: BaseException) -> str:
 
 
 def text_of(error: BaseException) -> str:
-    """The text of an exception."""
+    """The text of an exception; of an unknown attribute with Python's question "Did you mean".
+
+    Python's own question depends on its version, and names the node's lists, such as `publishers`, too.
+    """
     try:
-        return str(error)
+        near = _similar_attribute(error) if isinstance(error, AttributeError) else ""
+        return f"{error}. Did you mean: {near!r}?" if near else str(error)
     except Exception:  # a student's class may raise here too
         return f"<{type(error).__name__} without text>"
+
+
+def _similar_attribute(error: AttributeError) -> str:
+    owner, kind = error.obj, type(error.obj)
+    if owner is None or not error.name:
+        return ""
+    names = [name for name in dir(owner) if not name.startswith("_")]
+    if isinstance(owner, Node):
+        names = [name for name in names if not isinstance(getattr(kind, name, None), property)]
+    return closest_match(error.name, names, SIMILAR)
 
 
 def line_at(code: CodeType, instruction: int) -> int:

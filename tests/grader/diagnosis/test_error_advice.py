@@ -82,8 +82,7 @@ ADVICE = {
     mistakes.ForwardsToMethodWithoutMessage: "`obey` is called with a message: write `def obey(self, msg):`.",
     mistakes.UndeclaredParameter: "A parameter is declared before it is read: "
     "`self.declare_parameter('speed', default)`.",
-    mistakes.MisspeltMethod: "`self.tik` does not exist (yet): check its spelling; set it in __init__ before it is "
-    "used.",
+    mistakes.MisspeltMethod: "There is no `self.tik`. Did you mean `self.tick`?",
     mistakes.ValueBeforeItIsSet: "`self.count` does not exist (yet): check its spelling; set it in __init__ before "
     "it is used.",
     mistakes.NothingThere: "The value before `.publish` is None: it was never set, or comes from a function without "
@@ -103,6 +102,7 @@ ADVICE = {
     mistakes.BeyondTheLast: "The tuple has no item with that number: the first is number 0, the last is len(...) - 1.",
     mistakes.LoggerWithoutBrackets: "Parentheses are missing before `.info`: a method is called with them, as in "
     "`self.get_logger().info(...)`.",
+    mistakes.LeavesTheRaiseBelowItsCode: "Delete the line that raises, and run this cell again.",
     mistakes.NotStarted: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.NotStartedWithoutWords: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.main_with_namespace_without_slash: "A namespace starts with a slash: `/robot1`.",

@@ -1,5 +1,6 @@
 """Hangs, livelocks, deadlocks and work that is not started yet, as real runs end with them."""
 
+import re
 from functools import partial
 
 import pytest
@@ -119,6 +120,16 @@ def test_work_not_started_in_a_callback_counts_as_not_started_too():
     assert fault.saw == (
         "This exercise is not started yet: there is still a `raise NotImplementedError` in the code"
     )
+
+
+def test_a_raise_that_was_left_below_the_code_is_not_work_that_is_not_started():
+    fault = fault_of(mistakes.LeavesTheRaiseBelowItsCode)
+    place = re.search(r"line \d+", fault.saw)[0]
+    assert fault.saw == (
+        f"Your code is ended by a `raise NotImplementedError` (in LeavesTheRaiseBelowItsCode.tick, {place}, at 1 s)"
+    )
+    assert fault.hint == "Delete the line that raises, and run this cell again."
+    assert not fault.before_start and fault.sentence == "Your code runs without an error."
 
 
 @pytest.mark.parametrize("program", [own_clocks.Publishes, own_clocks.Overrides, waitables.Ticking])

@@ -76,8 +76,8 @@ def test_a_period_of_5_in_place_of_half_a_second(seconds, count):
 
 def test_a_period_that_is_longer_than_the_run():
     assert find_flaw(run(EveryFiveSeconds, seconds=3, quiet=True)) == (
-        "/talker has a publisher on /chatter, but never publishes. Its timer has a period of 5 s, and the run lasts "
-        "3 s. The period is 1 / rate, in seconds."
+        "The timer of /talker has a period of 5 s: EveryFiveSeconds.tick would run at 5 s, and never ran in 3 s. The "
+        "period is 1 / rate, in seconds: 0.5 s gives 2 Hz."
     )
 
 
