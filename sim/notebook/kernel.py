@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import json
+import linecache
 import os
 import re
 from collections.abc import Iterable
@@ -19,6 +20,7 @@ from sim.notebook.written_files import OutdatedFile, OutdatedModule, WrittenFile
 from sim.ros.absent_names import explain_absent_name
 
 COURSE_FOLDERS = tuple(str(Path(__file__).parents[2] / name) for name in ("sim", "grader"))
+REFUSALS = TypeError, ValueError, LookupError  # what the course raises for arguments
 _history: CellHistory | None = None
 _files = WrittenFiles()
 _page = PageComm()
@@ -85,7 +87,7 @@ def watch_cells() -> None:
 
     ipython.events.register("pre_run_cell", begin)
     ipython.events.register("post_run_cell", end)
-    ipython.set_custom_exc((NameError, KeyboardInterrupt, ModuleNotFoundError), show_error)
+    ipython.set_custom_exc((NameError, KeyboardInterrupt, ModuleNotFoundError, *REFUSALS), show_error)
     _page.open(update)
 
 
@@ -121,9 +123,12 @@ def show_error(
 ) -> None:
     """Show an error of a cell: in one sentence if that is sufficient, otherwise as a traceback.
 
-    The traceback of an import ends with what the missing module is, and how to get it.
+    The traceback of an import ends with what the missing module is, and how to get it; that of an argument
+    that the course refuses ends in the line that gave it.
     """
     watch_cells()
+    if isinstance(error, REFUSALS):
+        _drop_course_frames(trace)
     hint = explain_absent_name(kind.__name__, str(error))
     if hint and hint not in getattr(error, "__notes__", ()):
         error.add_note(hint)
@@ -132,6 +137,20 @@ def show_error(
     if sentence:
         error._render_traceback_ = lambda: [f"{kind.__name__}: {sentence}"]
     ipython.showtraceback((kind, error, trace), tb_offset=tb_offset, running_compiled_code=True)
+
+
+def _drop_course_frames(trace: TracebackType | None) -> None:
+    """End a traceback before the course's code, if a `raise` in it is the last line."""
+    last, line = None, ""
+    while trace is not None:
+        file = trace.tb_frame.f_code.co_filename
+        if file.startswith(COURSE_FOLDERS):
+            line = linecache.getline(file, trace.tb_lineno).strip()
+        else:
+            last, line = trace, ""
+        trace = trace.tb_next
+    if last is not None and line.startswith("raise "):
+        last.tb_next = None
 
 
 def _interruption(error: BaseException, trace: TracebackType | None) -> str:

@@ -111,6 +111,14 @@ def test_a_misspelt_class_and_an_object_for_a_class_are_named_in_one_line(kernel
     )
 
 
+def test_an_argument_that_the_course_refuses_is_shown_with_the_users_lines_alone(kernel):
+    kernel.run(SETUP, "setup")
+    for code, why in (("run(Node, world='romm')", "Did you mean 'room'?"), ("run('A')", "without quotes")):
+        said = kernel.run(code, "use")
+        assert why in said and "File" not in said and "line 1" in said
+    assert "session.py" not in kernel.run("[][2]", "use")
+
+
 def test_outside_a_notebook_nothing_is_watched():
     values = "n.in_notebook(), n.find_outdated([n]), n.explain_missing_name('n') == ''"
     code = f"from sim import notebook as n; print({values})"
