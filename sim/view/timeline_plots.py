@@ -7,7 +7,7 @@ import itertools
 import math
 import numbers
 import statistics
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -127,7 +127,8 @@ def _label(recording: Recording, topic: str) -> str:
 def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None = None) -> Plot:
     """Plot numeric fields of a topic's messages over time. The line is broken at gaps without messages.
 
-    fields: such as "linear.x", or "position.0" for an item of a list; "data" if omitted.
+    fields: such as "linear.x", or "position.0" for an item of a list, which has a line for each joint that
+        has this place in a message; "data" if omitted.
     unit: for the axis, such as "V"; if omitted, the unit that the message definition specifies.
     Raises ValueError when there are no messages, no such field, or no numbers in it.
     """
@@ -140,15 +141,15 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     fields = fields or ("data",)
     command = is_command(topic, received[0].type)
     panels: dict[str, list[dict[str, Any]]] = {}
-    for field, style, marker in zip(fields, itertools.cycle(STYLES), itertools.cycle(MARKERS), strict=False):
-        values = [_number(message, field, topic) for message in messages]
-        look = {"linestyle": style, "marker": marker if len(values) <= FEW else "", "linewidth": 1.2}
+    found = [curve for field in fields for curve in _curves(received, messages, field, topic)]
+    looks = itertools.cycle(STYLES), itertools.cycle(MARKERS)
+    for (label, of_curve, points), style, marker in zip(found, *looks, strict=False):
+        look = {"linestyle": style, "marker": marker if len(points) <= FEW else "", "linewidth": 1.2}
         look |= {"markersize": 4, "drawstyle": "steps-post" if command else "default"}
-        times, drawn = _broken(stamps(received), values)
-        label = field_label(messages[0], field)
+        times, drawn = _broken(*zip(*points, strict=True))
         axes.plot(times, drawn, **look, label=label)
         curve = series(label, times, drawn, style="step" if command else "line")
-        panels.setdefault(panel_unit(messages[0], field) if unit is None else unit, []).append(curve)
+        panels.setdefault(of_curve if unit is None else unit, []).append(curve)
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
@@ -157,6 +158,19 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     shown = [panel(name, curves) for name, curves in panels.items()]
     figure.offer(plot=plot_data(recording, topic, panels=shown))
     return note_failure(figure, recording)
+
+
+def _curves(
+    received: Sequence[Any], messages: Sequence[Any], field: str, topic: str
+) -> Iterator[tuple[str, str, list[tuple[float, float]]]]:
+    """The label, the unit and the points of each curve of a field: one for each name that its item has."""
+    curves: dict[str, tuple[str, list[tuple[float, float]]]] = {}
+    for item, message in zip(received, messages, strict=True):
+        label = field_label(message, field)
+        _, points = curves.setdefault(label, (panel_unit(message, field), []))
+        points.append((item.stamp, _number(message, field, topic)))
+    for label, (unit, points) in curves.items():
+        yield label, unit, points
 
 
 def _broken(moments: Sequence[float], values: Sequence[float]) -> tuple[list[float], list[float]]:

@@ -186,6 +186,14 @@ def test_an_item_of_a_list_is_a_signal():
     assert list(axes.lines[0].get_ydata()) == [2.0]
 
 
+def test_each_joint_that_has_a_place_in_the_messages_has_a_line():
+    rows = [(0.0, "arm", 0.1), (0.1, "gripper", 0.9), (0.2, "arm", 0.2), (0.3, "gripper", 0.8)]
+    states = [(stamp, JointState(name=[name], position=[value])) for stamp, name, value in rows]
+    axes = plot_signal(published("/joint_states", states), "/joint_states", "position.0", unit="rad").axes[0]
+    shown = {line.get_label(): list(line.get_ydata()) for line in axes.lines}
+    assert shown == {"arm position": [0.1, 0.2], "gripper position": [0.9, 0.8]}
+
+
 def test_an_item_that_is_not_there_is_refused():
     with pytest.raises(ValueError, match=r"^the messages on /joint_states have no field position\.1; "):
         plot_signal(published("/joint_states", [(1.0, JointState(position=[0.5]))]), *JOINT)
