@@ -28,7 +28,7 @@ class Ahead(Node):
         twist.linear.x = {speed}
         self.publisher.publish(twist)
 
-player = play(Ahead, world="corridor", seconds=60, speed=10)
+player = play(Ahead, world="corridor", seconds=900, speed=8)
 """
 LESSON = (
     "from sim.view import predict\nguess = predict('Does it fall?', a='yes', b='no')",
@@ -69,7 +69,7 @@ def test_the_star_is_filled_and_the_time_announced_live_and_in_the_replay(studen
     with open_lab(name) as lab:
         lab.page.evaluate("localStorage.removeItem('ros2-course-best-times')")
         lab.run_cell(0)
-        time = re.compile(r"Reached the star in 2\d\.\d s\.")
+        time = re.compile(r"Reached the star in \d+\.\d s\.")
         said = live(lab).root.locator(".say.success[role=status]", has_text=time)
         said.wait_for()
         assert "best time" not in said.inner_text()
@@ -77,7 +77,7 @@ def test_the_star_is_filled_and_the_time_announced_live_and_in_the_replay(studen
         live(lab).click("End the run")
         replay(lab).root.wait_for()
         lab.run_cell(1)
-        live(lab).root.get_by_text(re.compile(r"Your best time here; before: 2\d\.\d s\.")).wait_for()
+        live(lab).root.get_by_text(re.compile(r"Your best time here; before: \d+\.\d s\.")).wait_for()
         lab.screenshot("star-best")
         live(lab).click("End the run")
         replay(lab).root.wait_for()

@@ -14,6 +14,8 @@ GRADE = """([index, points]) => {
     cell.setMetadata('nbgrader', {grade: true, points, grade_id, locked: true, schema_version: 3});
 }"""
 
+SET_FIRST = "text => window.notebook().content.model.cells.get(0).sharedModel.setSource(text)"
+
 
 @pytest.fixture
 def checked(students_folder, open_lab):
@@ -48,6 +50,21 @@ def test_rows_come_as_they_arrive_and_the_total_at_the_end(checked, students_fol
     ]
     assert dialog.locator("caption").inner_text() == "Points of each check"
     assert dialog.locator("th[scope='col']").count() == 3
+    dialog.locator("button.jp-mod-accept").click()
+
+
+def test_a_slow_cell_before_a_check_is_named_with_its_time(checked, students_folder):
+    folder = students_folder / "validate"
+    checked.page.evaluate(SET_FIRST, SLOW.format(str(folder / "on")))
+    (folder / "go").touch()
+    checked.page.locator(".validate-button").first.click()
+    dialog = checked.page.locator(".jp-Dialog", has_text="Validation Results")
+    dialog.locator("p[role='status']", has_text="Cell [1]: import os, time ...").wait_for()
+    dialog.locator("p[aria-hidden]", has_text=re.compile(r"^runs, [1-9]\d* s$")).wait_for()
+    checked.screenshot("validate-slow-cell")
+    (folder / "on").touch()
+    dialog.locator("tfoot tr").wait_for()
+    assert dialog.locator("p[aria-hidden]").inner_text() == ""
     dialog.locator("button.jp-mod-accept").click()
 
 

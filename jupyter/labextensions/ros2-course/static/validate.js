@@ -4,6 +4,7 @@
 import { save } from "./saving.js";
 
 const HEADING = /^#+\s*(.+?)\s*(?:\([\d.]+ points?\))?\s*$/m;
+const LIMIT = 60; // s for a cell when a class is marked: c.Execute.timeout of nbgrader_config.py
 const WIDTH = "min(80vw, 720px)";
 
 export function validateButton(lab, app, panel) {
@@ -53,18 +54,20 @@ export function checksOf(cells) {
 }
 
 async function runCells(kernel, cells, checks, table, open) {
-  let number = 0;
+  let number = 0, count = 0;
   for (const cell of cells) {
     const text = cell.sharedModel.getSource();
     if (cell.type !== "code" || !text.trim()) continue;
     const check = checks.get(cell);
-    if (check) table.begin(cell, `Check ${++number} of ${checks.size}: ${check.name}`);
+    count += 1;
+    table.begin(cell, check ? `Check ${++number} of ${checks.size}: ${check.name}` : `Cell [${count}]: ${text.trim().split("\n")[0]}`);
     const { result, error } = await execute(kernel, text, cell.id);
     if (!open()) return;
     if (check) table.finish(cell, result, error);
   }
   table.showTotal();
   table.setStatus("");
+  table.since.textContent = "";
 }
 
 /** Run code; returns its result as text, and its error in one line. */
@@ -93,7 +96,8 @@ class Table {
     table.className = "ros2-course-points";
     table.style.width = WIDTH;
     this.widget = new lab.Widget();
-    this.widget.node.append(table, this.status);
+    this.since = Object.assign(document.createElement("p"), { ariaHidden: "true" }); // not announced each second
+    this.widget.node.append(table, this.status, this.since);
     this.earned = this.most = 0;
   }
 
@@ -107,11 +111,16 @@ class Table {
     this.body.append(line);
   }
 
-  /** Show which check runs, and for how long: one with many runs may take a minute. */
+  /** Show which cell runs, and for how long: a check with many runs may take a minute. */
   begin(cell, text) {
-    const { line } = this.rows.get(cell), began = performance.now();
+    const began = performance.now(), place = this.rows.get(cell)?.line.lastChild ?? this.since;
     this.setStatus(`${text} ...`);
-    const show = () => { line.lastChild.textContent = `runs, ${Math.floor((performance.now() - began) / 1000)} s`; };
+    this.since.textContent = "";
+    const show = () => {
+      const seconds = Math.floor((performance.now() - began) / 1000);
+      place.textContent = `runs, ${seconds} s`;
+      if (seconds === LIMIT) this.setStatus(`${text} ... When it is marked, a cell is stopped after ${LIMIT} s, and what comes after it may fail.`);
+    };
     show();
     this.stopClock();
     this.clock = setInterval(show, 1000);
