@@ -60,7 +60,7 @@ class LiveSystem(System):
     def _discover(self) -> None:
         """Wait until no more nodes are discovered. Print a hint if there are none."""
         if self._spin_time is None:
-            self._wait_for_graph()
+            self.wait_for_graph()
         else:
             end = time.monotonic() + self._spin_time
             while (left := end - time.monotonic()) > 0:
@@ -68,7 +68,7 @@ class LiveSystem(System):
         if not self.nodes and (hint := domains.no_nodes_hint(self.domain)):
             self._print_error(hint)
 
-    def _wait_for_graph(self) -> None:
+    def wait_for_graph(self) -> None:
         """Wait until the graph no longer changes."""
         began = time.monotonic()
         known: Any = None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import time
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
@@ -21,7 +22,8 @@ from sim.ros2.live import LiveSystem
 from sim.ros2.system import CliError
 from sim.ros2.type_support import import_without_generators
 
-COMPLETION_SETTLING_TIME = 0.1  # s: pressing Tab again retries
+COMPLETION_SETTLING_TIME = 0.1  # s
+LONGEST_COMPLETION = 2.0  # s for which names are awaited that begin with what was typed
 RETRY_INTERRUPT = 0.1  # s until a lost Ctrl-C is repeated
 INTERRUPTED = 2  # exit status after Ctrl-C, as the official command's
 KERNEL = "JPY_PARENT_PID"  # set in a notebook's kernel, and in what its cells start
@@ -83,12 +85,17 @@ def _print_error(line: str) -> None:
 
 
 def _make_completer(completer: Completer, without_system: bool) -> Callable[..., list[str]]:
-    def complete(parsed_args: Namespace, **_: Any) -> list[str]:
+    def complete(prefix: str, parsed_args: Namespace, **_: Any) -> list[str]:
         try:
             if without_system:
                 return completer(None, parsed_args)
+            end = time.monotonic() + LONGEST_COMPLETION
             with LiveSystem(settling_time=COMPLETION_SETTLING_TIME) as system:
-                return completer(system, parsed_args)
+                while True:
+                    found = completer(system, parsed_args)
+                    if any(name.startswith(prefix) for name in found) or time.monotonic() > end:
+                        return found
+                    system.wait_for_graph()
         except CliError:
             return []
 

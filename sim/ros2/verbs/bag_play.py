@@ -73,6 +73,8 @@ def play(system: System, options: Namespace) -> None:
         raise CliError(f"{options.bag_path} has no such messages.")
     length = (found[-1][2].log_time - found[0][2].log_time) / SECOND / options.rate + options.delay
     limit = system.time_limit if options.loop else length + 2 * MARGIN
+    topics, again = {channel.topic for _, channel, _ in found}, ", again and again" if options.loop else ""
+    system.print_line(f"Playing {len(found)} messages on {', '.join(sorted(topics))}: {length:.1f} s{again}")
     count = system.run_with_node(lambda node, output: BagPlayer(node, output, options).play(found), limit)
     system.print_line(f"Played {count} messages from {options.bag_path}")
 

@@ -191,7 +191,7 @@ def test_a_bag_is_played_from_an_offset_for_a_while_under_other_names():
     first = found["/other"][0][0]
     assert found["/other"] == [(round(first + 0.1 * i, 3), 6.0 + i) for i in range(4)]
     assert (found["/level"], found["/text"]) == ([], [(found["/other"][-1][0], "hello")])
-    assert words == "Played 5 messages from kept\n"
+    assert words == "Playing 5 messages on /level, /text: 0.3 s\nPlayed 5 messages from kept\n"
 
 
 def test_a_bag_is_played_again_and_again_each_time_after_a_pause():

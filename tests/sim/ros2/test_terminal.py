@@ -159,7 +159,11 @@ def test_a_bag_is_recorded_until_ctrl_c_and_played_back(terminal, system, tmp_pa
     count = int(re.fullmatch(rf"Recording stopped: (\d+) messages in {folder}\n", last)[1])
     row = f"Topic: /place | Type: geometry_msgs/msg/PointStamped | Count: {count} | Serialization"
     assert row in terminal(f"bag info {folder}")[0]
-    assert terminal(f"bag play -r 100 {folder}") == (f"Played {count} messages from {folder}\n", 0)
+    said, status = terminal(f"bag play -r 100 {folder}")
+    begin, end = said.splitlines()
+    assert re.fullmatch(rf"Playing {count} messages on /place: \d\.\d s", begin)
+    assert end == f"Played {count} messages from {folder}"
+    assert status == 0
 
 
 def test_a_topic_of_the_robot_is_measured_beside_it():
