@@ -68,6 +68,26 @@ def test_the_picture_and_the_notebook_stay_in_sight_when_the_window_becomes_smal
         until(lambda: notebook.bounding_box()["width"] > 200, "a notebook that is wide enough")
 
 
+def test_the_robot_has_its_width_back_when_the_window_is_wide_again(playing):
+    before = live(playing).canvas.bounding_box()["width"]
+    playing.page.set_viewport_size({"width": 480, "height": 900})
+    until(lambda: live(playing).canvas.bounding_box()["width"] < before - 50, "a narrow picture")
+    playing.screenshot("sidebar-480")
+    playing.page.set_viewport_size(LARGE)
+    until(lambda: live(playing).canvas.bounding_box()["width"] > 0.9 * before, "the width of before")
+    playing.screenshot("sidebar-again")
+
+
+def test_the_zoom_buttons_are_not_on_the_picture_and_the_robot_button_closes_the_panel(playing):
+    picture, zoom = live(playing).canvas.bounding_box(), live(playing).root.locator(".zoom").bounding_box()
+    assert zoom["y"] >= picture["y"] + picture["height"] - 1
+    button = playing.page.locator(SHOWN).get_by_role("button", name="Robot", exact=True)
+    button.click()
+    until(lambda: not sidebar(playing).is_visible(), "a closed panel")
+    button.click()
+    live(playing).canvas.wait_for()
+
+
 def test_the_values_of_a_replay_are_next_to_their_labels(playing):
     live(playing).click("End the run")
     strip = playing.cell(1).locator(".numbers div")

@@ -13,9 +13,10 @@ from tests.patience import until
 pytestmark = pytest.mark.browser
 ANNOUNCED = "document.querySelector('.ros2-course-announcement')?.textContent"
 AHEAD = """
+from dataclasses import replace
 from rclpy.node import Node
 from geometry_msgs.msg import Twist
-from sim import play
+from sim import World, play
 
 class Ahead(Node):
     def __init__(self):
@@ -28,7 +29,8 @@ class Ahead(Node):
         twist.linear.x = {speed}
         self.publisher.publish(twist)
 
-player = play(Ahead, world="corridor", seconds=900, speed=8)
+ahead = replace(World.load("corridor"), goal=(6.0, 0.4))
+player = play(Ahead, world=ahead, seconds=900, speed=4)
 """
 LESSON = (
     "from sim.view import predict\nguess = predict('Does it fall?', a='yes', b='no')",
@@ -107,18 +109,18 @@ def test_a_finished_lesson_says_so_below_its_last_cell_and_leads_on(titled, open
 
 
 def test_points_are_announced_and_a_passed_assignment_says_so(titled, open_lab):
-    name = titled("exercises", "# Assignment 1: nodes\n## A greeting", "1.5", "2.0")
+    name = titled("exercises", "# Assignment 1: nodes", "1.5", "2.0")
     with open_lab(name) as lab:
         for index in (1, 2):
             lab.page.evaluate(GRADE, [index, 2])
         lab.run_cell(1)
-        announced(lab, "A greeting: 1.5 of 2 points.")
+        announced(lab, "Assignment 1: nodes: 1.5 of 2 points.")
         lab.run_cell(2)
-        announced(lab, "A greeting: 2 of 2 points. Full points.")
+        announced(lab, "Assignment 1: nodes: 2 of 2 points. Full points.")
         assert line(lab).count() == 0
         lab.page.evaluate("window.notebook().content.model.cells.get(1).sharedModel.setSource('2.0')")
         lab.run_cell(1)
-        announced(lab, "A greeting: 2 of 2 points. Full points. Assignment 1 passed, 4 of 4 points.")
+        announced(lab, "Assignment 1: nodes: 2 of 2 points. Full points. Assignment 1 passed, 4 of 4 points.")
         line(lab).wait_for()
         assert line(lab).inner_text() == "✔ Assignment 1 passed, 4 of 4 points. Next: 2 Topics: lesson"
         lab.screenshot("assignment-passed")

@@ -118,7 +118,8 @@ class WorldCanvas {
   mostHeight() {
     if (!this.frameless) return Infinity;
     const others = /** @type {HTMLElement[]} */ ([...this.stage.parentElement.children]).filter((each) => each.matches(".how, .bar, .legend, .warning, .say, .numbers, .pad"));
-    const taken = others.reduce((sum, each) => sum + each.offsetHeight, 0);
+    const buttons = this.stage.offsetHeight - this.canvas.offsetHeight; // below the picture
+    const taken = others.reduce((sum, each) => sum + each.offsetHeight, buttons);
     const room = this.frameless.clientHeight;
     return Math.max(room - taken - TOPICS, LEAST_SHARE * room, LEAST_HEIGHT);
   }

@@ -28,8 +28,11 @@ export class RobotSidebar {
     let before = Infinity; // px; the window has no width yet
     window.addEventListener("resize", () => {
       const width = app.shell.node.clientWidth;
-      const smaller = width < NARROW && width < before && this.opened && this.widget.isVisible;
-      if (smaller) requestAnimationFrame(() => this.widen(true)); // once JupyterLab has its new layout
+      const smaller = width < NARROW && width < before, grown = width >= NARROW && before < NARROW;
+      if ((smaller || grown) && this.opened && this.widget.isVisible) {
+        requestAnimationFrame(() => this.widen(true)); // once JupyterLab has its new layout
+        if (grown && this.leftCollapsed) { this.leftCollapsed = false; app.shell.expandLeft(); }
+      }
       before = width;
     });
   }
@@ -65,6 +68,7 @@ export class RobotSidebar {
     const narrow = shell.node.clientWidth < NARROW;
     if (narrow && shell.leftCollapsed === false) { // its width counts until the next layout
       shell.collapseLeft();
+      this.leftCollapsed = true; // until the window is wide again
       requestAnimationFrame(() => this.widen(true));
       return;
     }
@@ -96,7 +100,7 @@ export class RobotPanel {
   /** A button for the notebook's toolbar. */
   button() {
     return new this.lab.ToolbarButton({
-      label: "Robot", tooltip: "Show the robot next to the notebook", onClick: () => this.reveal(),
+      label: "Robot", tooltip: "Show the robot next to the notebook, or close it", onClick: () => this.toggle(),
     });
   }
 
@@ -115,6 +119,7 @@ export class RobotPanel {
     this.notice = NONE;
     this.fill();
     this.watchers.forEach((update) => update());
+    if (WIDGET in bundle) this.wanted = true;
     if (WIDGET in bundle && this.sidebar.tracker.currentWidget === this.panel) this.sidebar.open();
   }
 
@@ -127,7 +132,16 @@ export class RobotPanel {
     this.watchers.forEach((update) => update());
   }
 
+  toggle() {
+    if (!this.sidebar.widget.isVisible) this.reveal();
+    else {
+      this.wanted = false;
+      this.sidebar.app.shell.collapseRight();
+    }
+  }
+
   reveal() {
+    this.wanted = true;
     this.sidebar.follow();
     this.sidebar.open();
   }
