@@ -29,7 +29,10 @@ def slow_callback(recording: Recording, canceled_early: int = 1) -> str:
         of_node = [run for run in recording.callbacks if run.node == timer.node]
         fires = [run for run in of_node if run.kind == "timer" and run.callback == timer.callback]
         fired, due = len(fires), int(recording.ended.stamp / timer.period + 1e-6)
-        if fired <= canceled_early and _was_canceled(fires, of_node, timer.period, recording.ended.stamp):
+        unfinished = any(row.node == timer.node and row.fact == UNFINISHED for row in recording.node_facts)
+        busy = max(run.duration for run in of_node) if fires and unfinished else 0.0
+        free = recording.ended.stamp - busy
+        if fired <= canceled_early and _was_canceled(fires, of_node, timer.period, free):
             continue
         slowest = max(of_node, key=lambda run: run.duration, default=None)
         if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
@@ -48,12 +51,14 @@ def certainly_slow_callback(recording: Recording) -> str:
 
 
 def _was_canceled(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
-    """Whether a timer fired for the last time although its node was free for longer than its period."""
+    """Whether a timer fired for the last time although its node was free for longer than its period.
+
+    end: until when the recording has all that its node did.
+    """
     if not fires:
         return False
     busy = sum(run.duration for run in of_node if run.stamp >= fires[-1].stamp)
-    unfinished = max(run.duration for run in of_node)  # what runs at the end is in no recording
-    return end - fires[-1].stamp - busy > period + unfinished + 1e-6
+    return end - fires[-1].stamp - busy > period + 1e-6
 
 
 def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import itertools
 import math
 
 from grader.diagnosis.driving import VelocityCommand, of_robots
 from grader.diagnosis.student_nodes import StudentNode, student_nodes
 from sim.evidence import Recording
-from sim.notebook.attribute_analysis import aliases, guards, reached, reads, writes
+from sim.notebook.attribute_analysis import aliases, guards, own_attribute, reached, reads, writes
 
 _HEADINGS = ("nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu")
 _TURNS = 2.0  # full ones, on which each heading was passed more than once
@@ -73,7 +74,18 @@ def _comparisons(method: ast.AST) -> list[ast.Compare]:
         for part in ast.walk(statement.test)
     }
     found = [part for part in ast.walk(method) if isinstance(part, ast.Compare) and id(part) not in idle]
-    return [part for part in found if any(isinstance(each, _NUMBERS) for each in part.ops)]
+    return [
+        part for part in found if any(isinstance(each, _NUMBERS) for each in part.ops) and not _is_met(part)
+    ]
+
+
+def _is_met(part: ast.Compare) -> bool:
+    """Whether it compares a heading with a number, so that a full turn makes it true once and false once."""
+    sides = [part.left, *part.comparators]
+    numbers = [side for side in sides if not isinstance(side, ast.Name) and not own_attribute(side)]
+    with contextlib.suppress(ValueError):
+        return all(abs(ast.literal_eval(number)) < math.pi for number in numbers) and len(numbers) == 1
+    return False
 
 
 def _acts(part: ast.AST) -> bool:

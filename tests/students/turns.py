@@ -102,6 +102,14 @@ class SpinsAndCounts(Turns):
         self.publisher.publish(LEFT)
 
 
+class TurnsFasterOnOneSide(TurnsInItsSubscription):
+    """Right: its speed depends on the heading, and never is 0."""
+
+    def on_odom(self, message):
+        yaw = yaw_of(message.pose.pose.orientation)
+        self.publisher.publish(Twist(angular=Vector3(z=2.0 if yaw > -0.5 else 1.0)))
+
+
 class Seeks(Turns):
     """Right: turns until something is near, or it looks back."""
 
@@ -146,4 +154,4 @@ ENDLESS = (
     *(TurnsWithoutNormalizing, TurnsToATargetThatMoves, TurnsByDegrees, TurnsUntilEqual),
     TurnsInItsSubscription,
 )
-RIGHT = Turns, SpinsAndLogs, SpinsAndCounts, Seeks, TurnsManyTimes, AddsUpInFull
+RIGHT = Turns, SpinsAndLogs, SpinsAndCounts, TurnsFasterOnOneSide, Seeks, TurnsManyTimes, AddsUpInFull

@@ -7,6 +7,7 @@ import gc
 import inspect
 import linecache
 import sys
+import weakref
 from collections.abc import Callable, Iterable
 from functools import partial
 from types import CellType, FrameType, FunctionType, GeneratorType, ModuleType
@@ -91,7 +92,8 @@ def _students_frame(chain: list[Any]) -> FrameType | None:
 def _why_in_vain(waiting: Awaiting) -> str:
     """Why a future is never completed, as far as that is certain; else ""."""
     holders = [each for each in gc.get_referrers(waiting.future) if not _is_own(each, waiting)]
-    if not holders or not _source_completes(waiting):
+    held = holders or weakref.getweakrefs(waiting.future)
+    if not held or not _source_completes(waiting):
         return "It awaits a future that no code completes: nothing calls its set_result()."
     completing = [*_by_closures(holders, waiting), *_by_methods(holders, waiting)]
     exclusive = isinstance(waiting.group, MutuallyExclusiveCallbackGroup)

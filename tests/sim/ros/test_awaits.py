@@ -46,6 +46,7 @@ WRONG = {
 RIGHT = [
     awaits.SleepsInAnotherGroup,
     awaits.WaitsForAService,
+    awaits.FindsItsFuture,
     awaits.opens_it_late,
     awaits.stays_with_a_task,
 ]

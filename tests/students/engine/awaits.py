@@ -1,5 +1,6 @@
 """Callbacks that await futures: in vain, or only until the right callback has run."""
 
+import weakref
 from functools import partial
 
 import rclpy
@@ -99,6 +100,19 @@ class WaitsForAService(Waiting):
 
     def open(self, request, response):
         self.opened.set_result(True)
+        return response
+
+
+class FindsItsFuture(WaitsForAService):
+    """Right: the service looks the future up, and does not keep it alive."""
+
+    async def pause(self):
+        self.opened, self.futures = None, weakref.WeakValueDictionary()
+        self.futures["open"] = future = Future()
+        await future
+
+    def open(self, request, response):
+        self.futures["open"].set_result(True)
         return response
 
 
