@@ -35,7 +35,7 @@ PRIVATE_SECONDS = 1500.0  # of simulated time, for which an exercise is tried wi
 LEAST_ORDERS, ORDERS_OF_PACKAGES = 50, 8  # tried with each exercise; tests.exercises.orders tries more
 ORDERS = {"13_delivery": 200}
 LONG = 15.0  # s of simulated time, of all runs of an exercise
-LONGEST = 1000.0  # s of simulated time: of what takes that long, only three rows are run each day
+LONGEST = 300.0  # s of simulated time: of what takes that long, only three rows are run each day
 # The docstring of a node says so, or the line that makes it.
 DESIGN = re.compile(
     r'^(?:class|def) (\w+)\b[^\n]*:\n    """A design of its own: |^(\w+) = [^\n]*# a design of its own', re.M

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
+from pathlib import Path
 
 import pytest
 import requests
@@ -117,3 +118,11 @@ def test_after_a_reboot_no_process_is_taken_for_one_of_before(hub, kernel):
         assert f"{ALICE} appears to have stopped while the Hub was down" in logged
         assert hub.client(ALICE).start_kernel(NOTEBOOK).run("print(6 * 7)")["text"] == "42\n"
     assert "Traceback" not in hub.log.read_text()
+
+
+def test_ctrl_c_ends_everything(hub, kernel):
+    logged = hub.stop(signal.SIGINT)
+    assert leftovers.find(hub.settings) == []
+    everyone = [int(path.name) for path in Path("/proc").glob("[0-9]*")]
+    assert [process for process in everyone if leftovers.is_process_of(process, ALICE)] == []
+    assert "Traceback" not in logged
