@@ -6,17 +6,18 @@ import ast
 import functools
 import inspect
 import linecache
-import sys
+import re
 import textwrap
-from types import CodeType
+from collections.abc import Iterator
+from types import CodeType, FrameType
 
 from sim.ros.recorder.tracebacks import is_library
 
 _ALL = (object, BaseException, Exception)  # to catch one of these is no sign of a purpose
 
 
-def is_expected(error: BaseException) -> bool:
-    """Whether the student's code raises it by `raise`, and a function further down the stack names it.
+def is_expected(error: BaseException, *stacks: FrameType | None) -> bool:
+    """Whether the student's code raises it by `raise`, and a function on one of these stacks names it.
 
     That function has it, or a class between it and Exception, in an `except` or a `suppress`.
     """
@@ -25,17 +26,18 @@ def is_expected(error: BaseException) -> bool:
         last = last.tb_next
     if last is None or is_library(last.tb_frame.f_code.co_filename):
         return False
-    line = linecache.getline(last.tb_frame.f_code.co_filename, last.tb_lineno)
-    if not line.lstrip().startswith("raise "):
+    if not re.search(r"\braise\b", linecache.getline(last.tb_frame.f_code.co_filename, last.tb_lineno)):
         return False
     names = {class_.__name__ for class_ in type(error).__mro__ if class_ not in _ALL}
-    frame = sys._getframe(1)
+    return any(names & _caught_in(code) for frame in stacks for code in _own_code(frame))
+
+
+def _own_code(frame: FrameType | None) -> Iterator[CodeType]:
+    """The student's functions on a stack."""
     while frame is not None:
-        code = frame.f_code
-        if not is_library(code.co_filename) and names & _caught_in(code):
-            return True
+        if not is_library(frame.f_code.co_filename):
+            yield frame.f_code
         frame = frame.f_back
-    return False
 
 
 @functools.lru_cache(maxsize=100)

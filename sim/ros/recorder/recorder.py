@@ -182,7 +182,10 @@ class Recorder(RecorderBase):
 
         One that a callback raises to end `spin()`, and that is caught there by its name, is not recorded.
         """
-        if not isinstance(error, NO_FAULT) and not is_expected(error):
+        fiber = self.scheduler.current
+        main = None if fiber is None else fiber.process.main
+        spins = None if main is None else main.greenlet.gr_frame  # of another thread, as of a pool's
+        if not isinstance(error, NO_FAULT) and not is_expected(error, sys._getframe(1), spins):
             self._record(error, callback, node)
 
     def end_error(self, error: BaseException, program: str) -> None:

@@ -350,7 +350,21 @@ def raises_again():
         raise
 
 
-ON_PURPOSE = catches_its_own_error, suppresses_an_error_raised_on_purpose
+def catches_what_a_thread_of_the_executor_raises():
+    rclpy.init()
+    node, executor = Node("raises"), MultiThreadedExecutor()
+    node.create_timer(0.5, finish)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except Finished:
+        node.get_logger().info("went on")
+
+
+ON_PURPOSE = (
+    *(catches_its_own_error, suppresses_an_error_raised_on_purpose),
+    catches_what_a_thread_of_the_executor_raises,
+)
 CAUGHT = catches_all_errors, catches_an_error_without_a_raise, raises_again
 
 
