@@ -180,6 +180,20 @@ class Groups(Node):
         self.publisher.publish(Int64(data=self.count))
 
 
+class AwaitsAThread(Node):
+    """Cancels its timer, and awaits what a thread completes much later."""
+
+    def __init__(self):
+        super().__init__("awaits_a_thread")
+        self.timer = self.create_timer(0.1, self.work)
+
+    async def work(self):
+        self.timer.cancel()
+        future = Future()
+        threading.Timer(1.5, future.set_result, ["measured"]).start()
+        self.get_logger().info(await future)
+
+
 class SteadyTimer(Node):
     """A timer of the steady clock; a guard condition triggers the message."""
 
@@ -225,4 +239,5 @@ CORPUS = [
     (spins_in_a_thread_of_asyncio, Pooled),
     (SteadyTimer, RestartsItsTimer),
     (uses_the_global_executor,),
+    (AwaitsAThread,),
 ]
