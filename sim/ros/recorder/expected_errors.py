@@ -29,29 +29,44 @@ def is_expected(error: BaseException, *stacks: FrameType | None) -> bool:
     if not re.search(r"\braise\b", linecache.getline(last.tb_frame.f_code.co_filename, last.tb_lineno)):
         return False
     names = {class_.__name__ for class_ in type(error).__mro__ if class_ not in _ALL}
-    return any(names & _caught_in(code) for frame in stacks for code in _own_code(frame))
+    return any(
+        frame.f_lineno in lines and names & caught
+        for stack in stacks
+        for frame in _own_frames(stack)
+        for lines, caught in _catching(frame.f_code)
+    )
 
 
-def _own_code(frame: FrameType | None) -> Iterator[CodeType]:
+def _own_frames(frame: FrameType | None) -> Iterator[FrameType]:
     """The student's functions on a stack."""
     while frame is not None:
         if not is_library(frame.f_code.co_filename):
-            yield frame.f_code
+            yield frame
         frame = frame.f_back
 
 
 @functools.lru_cache(maxsize=100)
-def _caught_in(code: CodeType) -> frozenset[str]:
-    """The names of the exceptions that a function catches; none without its source."""
+def _catching(code: CodeType) -> list[tuple[range, frozenset[str]]]:
+    """The lines of a function that are in a `try` or a `suppress`, with the names of what that catches."""
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(code)))
     except (OSError, SyntaxError, TypeError):
-        return frozenset()
-    caught: list[ast.expr] = []
+        return []
+    ast.increment_lineno(tree, code.co_firstlineno - 1)
+    found = []
     for part in ast.walk(tree):
-        if isinstance(part, ast.ExceptHandler) and part.type is not None:
-            caught.append(part.type)
-        elif isinstance(part, ast.Call) and ast.unparse(part.func).endswith("suppress"):
-            caught += part.args
-    inner = [each for part in caught for each in (part.elts if isinstance(part, ast.Tuple) else [part])]
-    return frozenset(ast.unparse(each).rpartition(".")[2] for each in inner)
+        caught: list[ast.expr | None] = []
+        if isinstance(part, ast.Try):
+            caught = [handler.type for handler in part.handlers]
+        elif isinstance(part, ast.With):
+            calls = [each.context_expr for each in part.items if isinstance(each.context_expr, ast.Call)]
+            caught = [
+                name for call in calls if ast.unparse(call.func).endswith("suppress") for name in call.args
+            ]
+        inner = [
+            each for part_ in caught for each in (part_.elts if isinstance(part_, ast.Tuple) else [part_])
+        ]
+        if inner:
+            lines = range(part.body[0].lineno, (part.body[-1].end_lineno or 0) + 1)
+            found.append((lines, frozenset(ast.unparse(each).rpartition(".")[2] for each in inner if each)))
+    return found

@@ -365,7 +365,19 @@ ON_PURPOSE = (
     *(catches_its_own_error, suppresses_an_error_raised_on_purpose),
     catches_what_a_thread_of_the_executor_raises,
 )
-CAUGHT = catches_all_errors, catches_an_error_without_a_raise, raises_again
+def catches_the_same_elsewhere():
+    rclpy.init()
+    node = Node("raises")
+    node.create_timer(0.5, finish)
+    with contextlib.suppress(Finished):
+        node.get_logger().info("went on", skip_first=True)
+    try:
+        rclpy.spin(node)
+    finally:
+        node.get_logger().info("went on")
+
+
+CAUGHT = catches_the_same_elsewhere, catches_all_errors, catches_an_error_without_a_raise, raises_again
 
 
 def needs_argument(robot):
