@@ -1,4 +1,4 @@
-"""A robot of five programs, all of which run without an error; and four of its connections are silent."""
+"""A robot of five programs, all of which run without an error, but four of its connections are silent."""
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import OccupancyGrid
@@ -18,7 +18,7 @@ class Lidar(Node):
 
 
 class MapServer(Node):
-    """Keeps nothing for latecomers."""
+    """Stores nothing for late joiners."""
 
     def __init__(self):
         super().__init__("map_server")
@@ -27,7 +27,7 @@ class MapServer(Node):
 
 
 class Battery(Node):
-    """Speaks in a namespace of its own."""
+    """Publishes in a namespace."""
 
     def __init__(self):
         super().__init__("battery", namespace="robot1")
@@ -36,7 +36,7 @@ class Battery(Node):
 
 
 class Navigator(Node):
-    """Listens to all of them, and drives."""
+    """Subscribes to all of them and drives."""
 
     def __init__(self):
         super().__init__("navigator")
