@@ -51,7 +51,7 @@ def test_several_processes_make_the_same_pages(marked, monkeypatch):
     expected = [page(marked, student).read_text() for student in ALL]
     for student in ALL:
         page(marked, student).unlink()
-    monkeypatch.setattr(feedback, "FEW", 2)
+    monkeypatch.setattr(feedback, "SHARE", 1)
     assert make_feedback(marked, ASSIGNMENT, ALL, jobs=2) == []
     assert [page(marked, student).read_text() for student in ALL] == expected
 
