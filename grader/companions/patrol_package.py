@@ -57,9 +57,13 @@ script_dir=$base/lib/patrol
 install_scripts=$base/bin
 """
 DRIVER = """\
+import signal
+import time
+
 import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 from patrol.speeds import USUAL
 
@@ -78,8 +82,18 @@ class Driver(Node):
 
 
 def main():
-    rclpy.init()
-    rclpy.spin(Driver())
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = Driver()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.commands.publish(Twist())  # zeros: stand still
+        time.sleep(0.2)  # so that they get there
+        node.destroy_node()
+        rclpy.try_shutdown()
 """
 LAUNCH = """\
 from launch import LaunchDescription

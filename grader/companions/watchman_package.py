@@ -42,12 +42,14 @@ setup(
 WATCH = '''\
 """Drives ahead, and turns where something is near; it waits until it is called."""
 import math
+import signal
+import time
 
 import rclpy
 from geometry_msgs.msg import Twist
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
@@ -91,12 +93,17 @@ class Watchman(Node):
 
 
 def main():
-    rclpy.init()
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = Watchman()
     try:
-        rclpy.spin(Watchman())
-    except (KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node)
+    except KeyboardInterrupt:
         pass
     finally:
+        node.commands.publish(Twist())  # zeros: stand still
+        time.sleep(0.2)  # so that they get there
+        node.destroy_node()
         rclpy.try_shutdown()
 '''
 CFG = "[develop]\nscript_dir=$base/lib/watchman\n[install]\ninstall_scripts=$base/lib/watchman\n"

@@ -5,11 +5,14 @@ from tests.students.workspaces import Workspace, changed, package
 PARTS = ("STOPPER", "LAUNCH", "RIGHT", "FILE", "SETUP", "BY_LOOP", "WITH_YAML", "NEEDS", "YAML")
 STOPPER = """\
 import math
+import signal
+import time
 
 import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import LaserScan
 
 
@@ -29,8 +32,18 @@ class Stopper(Node):
 
 
 def main():
-    rclpy.init()
-    rclpy.spin(Stopper())
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = Stopper()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.commands.publish(Twist())  # zeros: stand still
+        time.sleep(0.2)  # so that they get there
+        node.destroy_node()
+        rclpy.try_shutdown()
 """
 LAUNCH = """\
 from launch import LaunchDescription
