@@ -10,6 +10,7 @@ from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import OccupancyGrid, Path
 from planning import carrot, cells_of, inflate, rest_of, search, steer, to_cell, to_point, yaw_of
 from rclpy.action import ActionServer, CancelResponse
+from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
@@ -69,8 +70,13 @@ class Navigator(Node):
 
     @property
     def is_ready(self):
-        """Whether the map and the pose of the robot in it are known."""
-        return self.grid is not None and self.buffer.can_transform("map", "base_link", Time())
+        """Whether the map is known, and the robot's pose in it, no older than half a second."""
+        try:
+            newest = self.buffer.lookup_transform("map", "base_link", Time()).header.stamp
+        except TransformException:
+            return False
+        age = self.get_clock().now() - Time.from_msg(newest)
+        return self.grid is not None and age < Duration(seconds=0.5)
 
     @property
     def pose(self):
@@ -118,7 +124,10 @@ class Navigator(Node):
     def follow(self):
         """Ten times a second: drive a bit further along the path."""
         goal = self.goal  # once: another thread may take it away at any moment
-        if goal is None or not self.is_ready:
+        if goal is None:
+            return
+        if not self.is_ready:
+            self.drive(0.0, 0.0)  # no news is bad news
             return
         if not self.path:
             self.plan(goal)

@@ -4,6 +4,7 @@ These programs know the world, so each class is made for one: `bringup(world)`.
 """
 
 import array
+import math
 import random
 from typing import Any, ClassVar
 
@@ -17,7 +18,7 @@ from grader.companions.qos import LATCHED
 from grader.companions.transforms import transform
 from grader.geometry import Pose2D
 from grader.geometry.ground import RESOLUTION, ground
-from sim.evidence import Seconds
+from sim.evidence import Seconds, since_start
 from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
 from sim.world import World
@@ -85,13 +86,16 @@ class Localization(Node):
     compares the lidar with the map and corrects the transform all the time.
 
     late: how long after its start it publishes the first one (s); AMCL first needs a scan and a map.
+    ends: from when to when it publishes the last one (s); without it, never.
     """
 
     start: ClassVar[tuple[float, float, float]]
     late: ClassVar[Seconds] = 0.0
+    ends: ClassVar[tuple[Seconds, Seconds] | None] = None
 
     def __init__(self) -> None:
         super().__init__("localization")
+        self.last = random.uniform(*self.ends) if self.ends else math.inf
         self.publisher = self.create_publisher(TFMessage, "/tf", 10)
         message = TFMessage(transforms=[transform("map", "odom", Pose2D(*self.start))])
         self.message = Template(message, [f"transforms.0.{field}" for field in STAMP])
@@ -103,8 +107,9 @@ class Localization(Node):
         if self.skipped:
             self.skipped -= 1
             return
-        until = self.get_clock().now().nanoseconds + AHEAD
-        self.publisher.publish(self.message.fill(*divmod(until, SECOND)))
+        now = self.get_clock().now()
+        if since_start(now.to_msg()) < self.last:
+            self.publisher.publish(self.message.fill(*divmod(now.nanoseconds + AHEAD, SECOND)))
 
 
 class PointClicker(Node):

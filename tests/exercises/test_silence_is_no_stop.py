@@ -15,6 +15,7 @@ from tests.students.teams import programs_of
 # The right node sends zeros, and no check could ask for them.
 NOT_THE_STUDENTS = {
     "convoy": "the program that drives is given, and creeps up to its place",
+    "watch": "the program that turns the tower is given",
     "blueprint": "a plan of programs: what they send is made up by the course",
 }
 ROWS = [

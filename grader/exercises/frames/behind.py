@@ -4,8 +4,6 @@ import math
 import statistics
 from functools import partial
 
-from tf2_msgs.msg import TFMessage
-
 from grader.checks import (
     Missed,
     keeps_clear,
@@ -14,14 +12,13 @@ from grader.checks import (
     publishes,
     stands_still,
     subscribes,
-    traveled,
 )
 from grader.checks.frames import TF
 from grader.companions.transforms import LEADER, LosesTheLeader, localization
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Pose2D
 from grader.geometry.near import is_near
-from grader.responses import Window, from_course, from_student, last_before, require_standing
+from grader.responses import from_student, last_before, stands_without_transforms
 from grader.worlds.frame_worlds import convoy, parked
 from grader.worlds.trusting import trusting
 from sim.evidence import Recording, Seconds
@@ -29,7 +26,6 @@ from sim.evidence import Recording, Seconds
 GAP, BAND = 1.0, 0.25  # m
 NEAREST, FARTHEST = 0.7, 1.4  # m
 SETTLED, CLEAR = 9.0, 0.2  # s; rad, from which on the side is clear
-STOPPED = 1.5  # s; half a second until a transform is old, the time of a timer, and braking
 LATE = 1.0  # s, after which the frames of the two robots are connected in one of the runs
 WHY_OFF = {
     "Target and source are swapped: lookup_transform(target, source, time) gives the pose of the source, "
@@ -91,14 +87,7 @@ def stands_behind_one_who_stands(run: Recording) -> None:
 @behind.check(3, after=subscribes_and_drives, only="lost")
 def stops_when_it_knows_nothing_new(run: Recording) -> None:
     """When no new transforms of the leader arrive, the robot stops within 1.5 s."""
-    last = max(row.stamp for row in from_course(run, "/tf") if _is_of_the_leader(row.message))
-    if traveled(run.during(last - 2.0, last)) < 0.1:
-        hint = "First let the robot follow the leader."
-        raise Missed(f"a robot that follows until {last:.3g} s", "one that stands still", hint)
-    hint = ("Time() is the newest time that is known, however old: the lookup goes on succeeding for 10 s. "
-            "Compare the stamp of what it returns with the clock; where it is older than 0.5 s, send zeros.")
-    why = f"{STOPPED:g} s after the leader's last transform, at {last:.3g} s"
-    require_standing(run, Window(last + STOPPED, run.ended.stamp), why, hint)
+    stands_without_transforms(run, LEADER, "of the leader", "First let the robot follow the leader.")
 
 
 @behind.check(4, after=keeps_the_gap)
@@ -106,10 +95,6 @@ def touches_nothing(run: Recording) -> None:
     """The robot touches nothing and no one."""
     keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
     lasts(run, "/cmd_vel")
-
-
-def _is_of_the_leader(message: TFMessage) -> bool:
-    return any(transform.child_frame_id == LEADER for transform in message.transforms)
 
 
 def _looks_from_the_leader(run: Recording) -> bool:

@@ -1,6 +1,7 @@
 """Drive along a path with pure pursuit."""
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from grader.companions.maps import Localization, made_for
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Point, Pose2D
 from grader.geometry.ground import drivable
+from grader.responses import stands_without_transforms
 from grader.worlds.rooms import world_of
+from grader.worlds.trusting import trusting
 from sim.evidence import Recording, Seconds
 
 NEAR = 0.15  # meters from the path's end
@@ -26,6 +29,7 @@ CORNERS = ("If it cuts a corner, look less far ahead. If it swings wide, it turn
 FASTEST = 1.0  # m/s that a student may want
 AHEAD = 0.3  # meters: how far ahead of the robot the assignment steers for
 NEXT = 1.0  # meters of the path in which its next point is looked for
+ENDS = 4.0, 6.0  # s: between these the localization ends in another run
 LATE = 2.0  # s after its start the localization first publishes, in one of the runs: after the path
 
 
@@ -40,11 +44,20 @@ def _scenario(kind: str, seed: int, late: Seconds = 0.0) -> Scenario:
         world = world_of(kind, seed)
         return [made_for(Planner, world=world), made_for(Localization, start=world.start, late=late)]
 
-    return Scenario(lambda seed: world_of(kind, seed), 90, seed, companions, _settled)
+    return Scenario(lambda seed: world_of(kind, seed), 90, seed, companions, _settled, name=kind)
 
 
-follow = Exercise("follow", "Along the path", scenarios=[_scenario("clutter", 2), _scenario("maze", 1, LATE)],
-                  may_end=True)
+def _loses_it(seed: int) -> list[Any]:
+    world = world_of("maze", seed)
+    return [made_for(Planner, world=world), made_for(Localization, start=world.start, ends=ENDS)]
+
+
+
+follow = Exercise("follow", "Along the path", scenarios=[
+    _scenario("clutter", 2), _scenario("maze", 1, LATE),
+    Scenario(trusting(partial(world_of, "maze")), 12, 3, _loses_it, name="lost"),
+], may_end=True)
+KNOWN = "clutter", "maze"  # where it knows to the end where it is
 
 
 def _turns(run: Recording) -> list[float]:
@@ -65,7 +78,7 @@ def sends_commands(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
 
 
-@follow.check(7, after=sends_commands, guess={
+@follow.check(6, after=sends_commands, only=KNOWN, guess={
     "It only turns on the spot. A positive bearing is to the left, and so is a positive angular.z.":
         lambda run: not any(_speeds(run)) and any(_turns(run)),
     "The robot was never commanded to drive ahead: linear.x is the speed, such as 0.4 m/s.":
@@ -97,7 +110,7 @@ def drives_along(run: Recording) -> None:
         raise Missed(expected, saw, credit=tenths(0.8 * covered / whole), picture="path")
 
 
-@follow.check(4, after=drives_along)
+@follow.check(4, after=drives_along, only=KNOWN)
 def keeps_near(run: Recording) -> None:
     """On the way the robot stays within 12 cm of the path, and touches nothing."""
     has_no_contacts(run, CORNERS)
@@ -110,7 +123,7 @@ def keeps_near(run: Recording) -> None:
         raise Missed(f"the robot within {OFF} m of the path", saw, CORNERS, credit=credit, picture="path")
 
 
-@follow.check(4, after=drives_along)
+@follow.check(3, after=drives_along, only=KNOWN)
 def stops_at_its_end(run: Recording) -> None:
     """At the end of the path the robot stands still, within 15 cm of it."""
     left = math.dist(_line(run)[-1], run.path[-1][1:3])
@@ -120,6 +133,12 @@ def stops_at_its_end(run: Recording) -> None:
         raise Missed(expected, f"{left:.2f} m away", guess=guess, picture="path")
     stands_still(run)
     ends_with_a_stop(run)
+
+
+@follow.check(2, after=sends_commands, only="lost")
+def stops_when_it_is_lost(run: Recording) -> None:
+    """When no new transforms from map to odom arrive, the robot stops within 1.5 s."""
+    stands_without_transforms(run, "odom", "from map to odom", "First let the robot drive along the path.")
 
 
 def _line(run: Recording) -> tuple[Point, ...]:

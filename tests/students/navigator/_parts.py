@@ -6,8 +6,10 @@ import math
 import numpy as np
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
 from tf2_msgs.msg import TFMessage
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -19,13 +21,20 @@ class Localized(Node):
 
     def __init__(self, name):
         super().__init__(name)
-        self.frames = {}
+        self.frames, self.stamps = {}, {}
         self.create_subscription(TFMessage, "/tf", self.on_tf, 10)
 
     def on_tf(self, msg):
         for transform in msg.transforms:
             place, turn = transform.transform.translation, transform.transform.rotation
             self.frames[transform.child_frame_id] = place.x, place.y, 2 * math.atan2(turn.z, turn.w)
+            self.stamps[transform.child_frame_id] = Time.from_msg(transform.header.stamp)
+
+    @property
+    def is_lost(self):
+        """Whether the pose isn't known, or one of the transforms is older than half a second."""
+        oldest = min(self.stamps.values(), default=None)
+        return len(self.stamps) < 2 or self.get_clock().now() - oldest > Duration(seconds=0.5)
 
     @property
     def pose(self):

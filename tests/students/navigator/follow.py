@@ -5,7 +5,9 @@ import math
 import rclpy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry, Path
+from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.time import Time
 from tf2_msgs.msg import TFMessage
 
 from tests.students.navigator._parts import Localized, carrot, steer
@@ -28,7 +30,7 @@ class Follower(Localized):
 
     def drive(self):
         command = Twist()
-        if self.path and self.pose and math.dist(self.pose[:2], self.path[-1]) > self.near:
+        if self.path and not self.is_lost and math.dist(self.pose[:2], self.path[-1]) > self.near:
             command.linear.x, command.angular.z = self.steer(self.carrot())
         self.publisher.publish(command)
 
@@ -60,10 +62,11 @@ def follower_main():
     rclpy.init()
     node = Node("follow_path")
     publisher = node.create_publisher(Twist, "cmd_vel", 10)
-    frames, plans = {}, []
+    frames, stamps, plans = {}, {}, []
 
     def on_tf(msg):
         for t in msg.transforms:
+            stamps[t.child_frame_id] = Time.from_msg(t.header.stamp)
             move, turn = t.transform.translation, t.transform.rotation
             frames[t.child_frame_id] = complex(move.x, move.y), complex(turn.w, turn.z) ** 2
 
@@ -72,6 +75,9 @@ def follower_main():
     while rclpy.ok():
         rclpy.spin_once(node, timeout_sec=0.1)
         if not plans or len(frames) < 2:
+            continue
+        if node.get_clock().now() - min(stamps.values()) > Duration(seconds=0.5):
+            publisher.publish(Twist())
             continue
         place = frames["odom"][0] + frames["odom"][1] * frames["base_link"][0]
         heading = frames["odom"][1] * frames["base_link"][1]
@@ -99,6 +105,14 @@ class SlowInCurves(Follower):
     def steer(self, point):
         speed, turn = super().steer(point)
         return speed / (1 + abs(turn)), turn / (1 + abs(turn)) if speed else turn
+
+
+class DrivesWithAnOldPose(Follower):
+    """Takes the newest pose, however old."""
+
+    @property
+    def is_lost(self):
+        return self.pose is None
 
 
 class StandsStill(Follower):

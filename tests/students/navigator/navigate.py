@@ -147,10 +147,12 @@ class Navigator(Mapper):
     def execute(self, goal_handle):
         began, goal, path = self.get_clock().now(), self.goal_of(goal_handle), []
         self.recoveries = 0
-        while self.pose is None or self.info is None or math.dist(self.pose[:2], goal) > self.near:
+        while self.is_lost or self.info is None:
             time.sleep(0.1)
-            if self.pose is None or self.info is None:
-                continue
+        while math.dist(self.pose[:2], goal) > self.near:
+            time.sleep(0.1)
+            if self.is_lost:
+                return self.given_up(goal_handle)
             if self.is_canceled(goal_handle):
                 return self.canceled(goal_handle)
             if not path or self.is_blocked(path):
@@ -161,6 +163,11 @@ class Navigator(Mapper):
             else:
                 self.drive(0.0, 0.0)
         return self.arrived(goal_handle)
+
+    def given_up(self, goal_handle):
+        self.drive(0.0, 0.0)
+        goal_handle.abort()
+        return NavigateToPose.Result()
 
     def is_canceled(self, goal_handle):
         return goal_handle.is_cancel_requested
@@ -210,7 +217,10 @@ class TimerNavigator(Mapper):
         return NavigateToPose.Result()
 
     def work(self):
-        if self.goal_handle is None or self.pose is None or self.info is None:
+        if self.goal_handle is None or self.info is None:
+            return
+        if self.is_lost:
+            self.drive(0.0, 0.0)  # and go on when it is known again
             return
         position = self.goal_handle.request.pose.pose.position
         goal = position.x, position.y
