@@ -83,7 +83,7 @@ class MobileRobot(Drive):
 
     def roll(self) -> None:
         """As `Drive.roll`, with what is lost while something touches the robot."""
-        self.odometry_error.update(self._v, self.log.is_touched)
+        self.odometry_error.update(self._v, self._w, self.log.is_touched)
         super().roll()
 
     def update_battery(self) -> None:

@@ -14,13 +14,15 @@ class OdometryError:
     Attributes:
         place: of the position, m.
         turn: of the yaw, rad.
+        speed, rate: of the velocity (m/s) and the yaw rate (rad/s): all that the wheels roll at this moment.
     """
 
     def __init__(self) -> None:
-        self.place = self.turn = 0.0
+        self.place = self.turn = self.speed = self.rate = 0.0
 
-    def update(self, v: float, is_touched: bool) -> None:
-        """Add a step of the physics, with the wheels' velocity v (m/s)."""
+    def update(self, v: float, w: float, is_touched: bool) -> None:
+        """Add a step of the physics, with the velocity (m/s) and yaw rate (rad/s) of the wheels."""
+        self.speed, self.rate = (abs(v), abs(w)) if is_touched else (0.0, 0.0)
         if is_touched:
             self.turn = TURNED
             self.place += abs(v) * DT

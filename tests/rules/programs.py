@@ -3,7 +3,9 @@
 Such a program is a class or a function that
 
 - a cell of code defines that says "please don't" or "poor",
-- or the next cells of code define, after a text that says "What goes wrong" or "please don't".
+- or the next cells of code define, after a text that says "What goes wrong" or "please don't", or after a
+  prediction: what it does may surprise,
+- or that a block of Python in such a text has, which may be a program without a function.
 
 A node is adapted from it by renaming only. `likeness` compares two programs as trees, without docstrings:
 constants count by their type, and names that only one of the two has by the order in which they appear.
@@ -24,6 +26,8 @@ from tests.rules.table import ROOT, Cell, Table
 ENOUGH = 0.9
 """How alike a node and a lesson's program are at least."""
 CALLS_WRONG = re.compile(r"what goes wrong|please don't", re.I)
+PREDICTS = re.compile(r"\bpredict\(")
+BLOCK = re.compile(r"^```python\n(.*?)^```", re.M | re.S)
 # Why no node is adapted from a program.
 REASONS = {
     "same mistake": "an exercise has a wrong node with this mistake, in a program of another shape",
@@ -39,12 +43,23 @@ def called_wrong(cells: dict[str, Cell]) -> dict[str, list[Definition]]:
     """The definitions that a lesson calls wrong, by the cell of code that has them."""
     found, is_called = {}, False
     for name, cell in cells.items():
-        if cell.kind != "code":
+        if cell.kind == "code":
+            called = cell.source if is_called or POOR_CODE.search(cell.source) else ""
+            defined = _definitions(called)
+            is_called |= bool(PREDICTS.search(cell.source))
+        else:
             is_called = bool(CALLS_WRONG.search(cell.source))
-        elif is_called or POOR_CODE.search(cell.source):
-            defined = _definitions(cell.source)
-            found |= {name: defined} if defined else {}
+            blocks = BLOCK.findall(cell.source) if is_called else []
+            defined = [item for block in blocks for item in _definitions(block) or [_program(block)]]
+        found |= {name: defined} if defined else {}
     return found
+
+
+def _program(source: str) -> Definition:
+    """Statements as a function."""
+    [made] = ast.parse("def program(): pass").body
+    made.body = ast.parse(source).body
+    return made
 
 
 def _definitions(source: str) -> list[Definition]:

@@ -1,11 +1,12 @@
 """Every program that a lesson calls wrong is a wrong node, adapted by renaming, or the table says why not."""
 
 import ast
+import json
 
 import pytest
 
 from tests.rules.programs import called_wrong, definition_of, likeness, problems
-from tests.rules.table import LESSONS, Cell, cells_of, read_table, table_of
+from tests.rules.table import LESSONS, ROOT, Cell, cells_of, read_table, table_of
 
 POOR = """
 class Slow(Node):  # please don't
@@ -46,6 +47,28 @@ def test_each_program_that_is_called_wrong_is_a_wrong_node_or_says_why_not(lesso
 def test_what_is_called_wrong_is_found():
     found = {cell: [item.name for item in items] for cell, items in called_wrong(CELLS).items()}
     assert found == {"forgets": ["Forgetful"], "poor": ["Slow"]}
+
+
+def test_what_follows_a_prediction_and_blocks_in_texts_are_found():
+    cells = {
+        "guess": Cell("code", 'guess = predict("And now?", a="It waits", b="It fails")'),
+        "surprise": Cell("code", "class Sleepy(Lamp):\n    pass"),
+        "result": Cell("markdown", "It waits."),
+        "other": Cell("code", "class Other(Lamp):\n    pass"),
+        "avoid": Cell("markdown", "Avoid this:\n\n```python\nrclpy.spin(node)  # please don't\n```\n"),
+        "fine": Cell("markdown", "Write:\n\n```python\ndef main():\n    pass\n```\n"),
+    }
+    found = {cell: [item.name for item in items] for cell, items in called_wrong(cells).items()}
+    assert found == {"surprise": ["Sleepy"], "avoid": ["program"]}
+
+
+def test_no_assignment_calls_a_program_wrong_that_it_shows():
+    texts = {
+        f"{path.stem}: {cell['id']}": Cell(cell["cell_type"], "".join(cell["source"]))
+        for path in sorted(ROOT.glob("solutions/*/*.ipynb"))
+        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "markdown"
+    }  # fmt: skip
+    assert called_wrong(texts) == {}
 
 
 def test_renaming_keeps_two_programs_alike_and_another_statement_does_not():

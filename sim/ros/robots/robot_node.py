@@ -107,8 +107,9 @@ class Robot(Node):
         pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
         if self.clock_pub is not None:
             self.clock_pub.publish(messages.clock.fill(*stamp))
-        place, turn = robot.odometry_error.place**2, robot.odometry_error.turn**2
-        self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w, place, place, turn))
+        off = robot.odometry_error
+        variances = off.place**2, off.place**2, off.turn**2, off.speed**2, off.rate**2
+        self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w, *variances))
         self.tf_pub.publish(messages.tf.fill(*stamp, *pose))
         self.joint_pub.publish(messages.joints.fill(*stamp, *robot.wheels))
         if robot.lidar_works:

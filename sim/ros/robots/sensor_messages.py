@@ -19,8 +19,11 @@ from sim.world.lidar import LidarModel
 
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
-# Of x, y and yaw; the rest of the 6 x 6 numbers is exactly 0 in a flat world.
-VARIANCES = tuple(f"pose.covariance.{index}" for index in (0, 7, 35))
+# Of x, y and yaw, and of their rates; the rest of the 6 x 6 numbers is exactly 0 in a flat world.
+VARIANCES = (
+    *(f"pose.covariance.{index}" for index in (0, 7, 35)),
+    *(f"twist.covariance.{index}" for index in (0, 35)),
+)
 TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 

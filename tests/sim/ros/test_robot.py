@@ -237,7 +237,11 @@ def test_a_wall_stops_the_robot_and_presses_the_bumper():
     assert pressed[0] == pytest.approx(contact.stamp, abs=0.05) and pressed[0] >= contact.stamp
     assert (contact.side, contact.what, contact.end) == ("front", "wall", None)
     assert recording.path[-1].x == pytest.approx(2.9, abs=0.005)
-    assert received(recording, "/odom")[-1][1].pose.pose.position.x > 3.5
+    first, *_, last = (message for _, message in received(recording, "/odom"))
+    assert last.pose.pose.position.x > 3.5
+    assert (first.twist.covariance[0], first.pose.covariance[0]) == (0.0, 0.0)
+    assert last.twist.covariance[0] == last.twist.twist.linear.x ** 2 > 0.0 == last.twist.covariance[35]
+    assert last.pose.covariance[0] > 0.5
 
 
 def test_the_path_is_the_truth_in_the_map_frame():

@@ -28,7 +28,8 @@ def driven(world, seed, seconds):
 def test_odometry_is_exact_until_something_touches_the_robot():
     for robot, place, turn in driven(World.load("yard"), 1, 60):
         assert not robot.contacts
-        assert (robot.odometry_error.place, robot.odometry_error.turn) == (0.0, 0.0)
+        error = robot.odometry_error
+        assert (error.place, error.turn, error.speed, error.rate) == (0.0, 0.0, 0.0, 0.0)
         assert max(place, turn) < 1e-9
 
 
@@ -39,3 +40,15 @@ def test_once_it_was_touched_the_error_is_about_what_is_estimated(seed):
     assert robot.contacts and place > 1.0
     assert place < robot.odometry_error.place < 3 * place
     assert turn < 2 * robot.odometry_error.turn == 2 * TURNED
+
+
+def test_while_it_pushes_a_wall_all_of_its_speed_may_be_wrong():
+    simulation = Simulation(World.load("room"), seed=1)
+    robot, places = simulation.robot, []
+    for step in range(1, 301):
+        robot.command(0.4, 0.0)
+        simulation.advance(step / 10)
+        assert robot.odometry_error.speed == (robot.odometry.v if robot.contacts else 0.0)
+        places.append(robot.pose[:2])
+    assert math.dist(*places[-2:]) < 0.001
+    assert robot.odometry.v == robot.odometry_error.speed == pytest.approx(0.4)
