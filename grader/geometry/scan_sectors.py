@@ -53,12 +53,18 @@ def _least(rays: np.ndarray) -> float:
     return float(known.min()) if len(known) else math.inf
 
 
-def sector_of(message: Any, middle: float) -> Sector:
-    """Return the sector of a scan round a direction: degrees, 0 ahead and 90 to the left."""
+def sector_of(
+    message: Any, middle: float, half: float = HALF, *, wraps: bool = True, converts: bool = True
+) -> Sector:
+    """Return the sector of a scan round a direction: degrees, 0 ahead and 90 to the left.
+
+    wraps, converts: whether 350 is the same angle as -10, and whether angles in rad become degrees.
+    """
     ranges = np.array(message.ranges)
-    angles = np.degrees(message.angle_min + np.arange(len(ranges)) * message.angle_increment)
-    off = np.abs((angles - middle + 180.0) % 360.0 - 180.0)
+    angles = message.angle_min + np.arange(len(ranges)) * message.angle_increment
+    off = (np.degrees(angles) if converts else angles) - middle
+    off = np.abs((off + 180.0) % 360.0 - 180.0 if wraps else off)
     return Sector(
-        ranges[off <= HALF + EDGE], ranges[off <= HALF - EDGE], float(ranges[off.argmin()]),
-        ranges[(off > HALF) & (off <= BESIDE)], max(0.0, _least(ranges)), np.flatnonzero(off <= HALF + EDGE),
+        ranges[off <= half + EDGE], ranges[off <= half - EDGE], float(ranges[off.argmin()]),
+        ranges[(off > half) & (off <= BESIDE)], max(0.0, _least(ranges)), np.flatnonzero(off <= half + EDGE),
     )

@@ -7,7 +7,7 @@ from grader.companions.scripted_orders import Situation, desk, situations
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
 from grader.geometry.near import is_near
-from grader.responses import Window, from_student
+from grader.responses import Window, from_student, last_before
 from sim.evidence import Message, Recording, Seconds, since_start
 
 GOAL, STATE = "/goal_pose", "/state"
@@ -15,7 +15,6 @@ LATE = 1.2  # s until a decision that comes twice a second has to hold
 TOGETHER = 0.1  # s; the desk publishes a situation's orders one after the other, within so much of its begin
 SAME = 0.02  # m
 PAST = "Subscribe to /orders with KEPT, and store orders by their id: a later message replaces it."
-SILENT = "Publish both every time the timer fires, even when nothing has changed, and never wait."
 
 decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
 
@@ -33,7 +32,7 @@ def knows_latched_messages(run: Recording) -> None:
     _compare(run, "past", PAST)
 
 
-@decide.check(1, after=knows_latched_messages)
+@decide.check(1, after=decides)
 def has_the_frame_map(run: Recording) -> None:
     """Goals are in the frame map, as /dock_pose and the orders are."""
     for goal in from_student(run, GOAL):
@@ -43,20 +42,20 @@ def has_the_frame_map(run: Recording) -> None:
             raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
 
 
-@decide.check(2, after=knows_latched_messages)
+@decide.check(2, after=decides)
 def publishes_twice_a_second(run: Recording) -> None:
     """It publishes the goal twice a second, without a pause."""
     for topic in (GOAL, STATE):
         rate(run, topic, 2.0, tolerance=0.15)
 
 
-@decide.check(4, after=knows_latched_messages)
+@decide.check(4, after=decides)
 def delivers_first(run: Recording) -> None:
     """A robot that carries a load delivers it, whatever else is requested."""
     _compare(run, "delivers", "Look for an order that is PICKED_UP before you check anything else.")
 
 
-@decide.check(4, after=knows_latched_messages)
+@decide.check(4, after=decides)
 def charges(run: Recording) -> None:
     """It charges below 30 %, then until 80 %, and not in between."""
     hint = ("Use two limits: below 0.3 it starts charging; below 0.8 it continues if the last state was "
@@ -64,14 +63,14 @@ def charges(run: Recording) -> None:
     _compare(run, "charges", hint)
 
 
-@decide.check(4, after=knows_latched_messages)
+@decide.check(4, after=decides)
 def gives_up(run: Recording) -> None:
     """It drops orders that are over, and those that can no longer be delivered in time."""
     hint = "Fetch an order only while it is WAITING and has more time left than it takes; check every time."
     _compare(run, "gives up", hint)
 
 
-@decide.check(3, after=knows_latched_messages)
+@decide.check(3, after=decides)
 def keeps_to_one(run: Recording) -> None:
     """It takes the most urgent order, and then stays with the one it has begun."""
     hint = ("Stay with the order you began as long as it can be delivered; otherwise take the earliest "
@@ -84,17 +83,24 @@ def _compare(run: Recording, about: str, hint: str) -> None:
     for one in situations(run.seed, about):
         begin = one.begin + LATE
         window = Window(begin, run.ended.stamp).before(one.end)
-        goals, states = (window.rows(from_student(run, topic)) for topic in (GOAL, STATE))
+        goals, states = (_decided(run, topic, window) for topic in (GOAL, STATE))
         expected = f"“{one.state}” and {_text(one.place)} from {begin:.3g} s on, because {one.reason}"
         if not (goals and states):
             saw = f"nothing published from {begin:.3g} s to {one.end:.3g} s"
-            raise Missed(expected, saw, SILENT, picture="topics")
+            raise Missed(expected, saw, hint, picture="topics")
         places = _places(run, one)
         for state, goal in zip(states, goals, strict=False):
             place = Pose2D.from_message(goal.message.pose)[:2]
             if state.message.data != one.state or not any(is_near(place, each, SAME) for each in places):
                 saw = f"“{state.message.data}” and {_text(place)} at {goal.stamp:.3g} s"
-                raise Missed(expected, saw, hint, picture="topics")
+                first = () if about == "past" else (knows_latched_messages,)
+                raise Missed(expected, saw, hint, picture="topics", because=first)
+
+
+def _decided(run: Recording, topic: str, window: Window) -> list[Message]:
+    """What was published in a window; where that is nothing, what was last published before."""
+    sent = from_student(run, topic)
+    return window.rows(sent) or list(filter(None, [last_before(sent, window.begin)]))
 
 
 def _places(run: Recording, one: Situation) -> list[Point]:

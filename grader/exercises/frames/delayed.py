@@ -2,12 +2,13 @@
 
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.fields import stamp_words
 from grader.checks.frames import Broadcast, broadcasts
 from grader.companions.moving_frames import SlowLocalization
 from grader.exercise import Exercise
 from grader.geometry import Point
 from grader.geometry.near import is_near
-from grader.responses import EDGE, Stimuli, Stimulus, last_before, same
+from grader.responses import EDGE, Stimuli, Stimulus, Window, last_before, same
 from sim.evidence import Message, Recording, Seconds, since_start
 
 POINT = "geometry_msgs/msg/PointStamped"
@@ -29,27 +30,36 @@ def subscribes_to_detections(run: Recording) -> None:
     subscribes(run, "/tf")
 
 
-@delayed.check(10, after=subscribes_to_detections)
+@delayed.check(8, after=subscribes_to_detections)
 def places_them(run: Recording) -> None:
     """Each detection is on /found (PointStamped), once and within 1.2 s: where it was then, in map."""
     with hinting(LATER):
         publishes(run, "/found", POINT)
     seen = detections(run, at_least=5)
     _require_places(run, seen)
-    counts = [len(_answers(one)) for one in seen]
+    counts = [len(_answers(run, one)) for one in seen]
     if set(counts) != {1}:
         saw, credit = f"{counts.count(1)} of {len(seen)}", 0.0
         if max(counts) > 1:
             saw, credit = f"{max(counts)} for one of them", OFTEN if min(counts) else 0.0
-        expected = f"one message for each of {len(seen)} detections, with its stamp"
-        raise Missed(expected, saw, LATER, credit=credit)
+        raise Missed(f"one message for each of {len(seen)} detections", saw, LATER, credit=credit)
+
+
+@delayed.check(2, after=places_them)
+def keeps_the_stamp(run: Recording) -> None:
+    """Each has the stamp of its detection: the time at which it was there."""
+    stamps = [_measured(one.message) for one in detections(run, at_least=5)]
+    for row in Window(0.0, run.ended.stamp - SOON).rows(run.messages("/found")):
+        if not any(same(_measured(row), stamp) for stamp in stamps):
+            hint = "Keep the detection's header, and copy it: found.header.stamp = msg.header.stamp."
+            raise Missed("the stamp of a detection", stamp_words(row.message.header.stamp), hint)
 
 
 @delayed.check(4, after=places_them)
 def waits_no_longer_than_needed(run: Recording) -> None:
     """It is published as soon as its transform is available, within 0.2 s."""
     for seen in detections(run, at_least=5):
-        for answer in _answers(seen)[:1]:
+        for answer in _answers(run, seen)[:1]:
             ready = next(one.stamp for one in _robot(run) if one.measured >= _measured(seen.message) - EDGE)
             what = f"the detection of {seen.stamp:.3g} s on /found"
             if answer.stamp < ready - EDGE:
@@ -64,7 +74,7 @@ def waits_no_longer_than_needed(run: Recording) -> None:
 def _require_places(run: Recording, seen: list[Stimulus]) -> None:
     """Raise Missed for the first answer with another place than where the point was."""
     for one in seen:
-        for answer in _answers(one)[:1]:
+        for answer in _answers(run, one)[:1]:
             point, frame = answer.message.point, answer.message.header.frame_id
             x, y = _point(min(_robot(run), key=lambda sent: abs(sent.measured - _measured(one.message))), one)
             if frame != "map" or not is_near((point.x, point.y), (x, y), NEAR):
@@ -78,9 +88,14 @@ def _require_places(run: Recording, seen: list[Stimulus]) -> None:
                 raise Missed(expected, saw, hint, credit=ELSEWHERE if was_there else 0.0)
 
 
-def _answers(seen: Stimulus) -> list[Message]:
-    """The responses with the stamp of a detection."""
-    return [row for row in seen.responses if same(_measured(row), _measured(seen.message))]
+def _answers(run: Recording, seen: Stimulus) -> list[Message]:
+    """The responses with the stamp of a detection; where no response has one, the one in its turn."""
+    stamps = [_measured(one.message) for one in detections(run, at_least=5)]
+    found = run.messages("/found")
+    if any(same(_measured(row), stamp) for row in found for stamp in stamps):
+        return [row for row in seen.responses if same(_measured(row), _measured(seen.message))]
+    turn = next(turn for turn, stamp in enumerate(stamps) if same(stamp, _measured(seen.message)))
+    return [row for row in found[turn : turn + 1] if row in seen.responses]
 
 
 def _measured(row: Message) -> Seconds:

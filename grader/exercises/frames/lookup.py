@@ -1,8 +1,9 @@
 """Look transforms up: where was it, when it was seen? And what if there is no answer?"""
 
 import math
+from dataclasses import replace
 
-from grader.checks import Missed, otherwise, publishes, subscribes
+from grader.checks import Missed, otherwise, publishes, subscribes, tenths
 from grader.checks.fields import stamp_words
 from grader.checks.frames import broadcasts
 from grader.companions.sightings import SIGHTINGS, Team
@@ -15,6 +16,7 @@ from sim.network import Network
 POINT, FOUND, REFUSED = "geometry_msgs/msg/PointStamped", "/found", "/refused"
 SOON, NEAR, LATE = 0.3, 0.05, 0.3  # s, m, m
 OUTSIDE = "ExtrapolationException"  # of the times of its transforms
+KINDS = 0.6  # of the kinds of refusals; fewer are none
 PART = 0.3  # less than this is none
 RADIO = Network(delay=0.05, jitter=0.04)  # s; between the student's laptop and the robots
 
@@ -66,18 +68,24 @@ def places_them(run: Recording) -> None:
         raise Missed(expected, saw, about=(wrong,), credit=right if right >= PART else 0.0)
 
 
-@lookup.check(5, after=places_them)
+@lookup.check(5, after=subscribes_to_sightings)
 def publishes_refusals(run: Recording) -> None:
     """If the lookup fails, its exception's name is on /refused (String), such as LookupException."""
     publishes(run, REFUSED, "std_msgs/msg/String")
-    for seen in refused_sightings(run, at_least=len(SIGHTINGS)):
-        reason = _reason(run, seen)
+    refused = refused_sightings(run, at_least=len(SIGHTINGS))
+    reasons = {seen.stamp: _reason(run, seen) for seen in refused}
+    right = [seen for seen in refused if seen.values() == [reasons[seen.stamp]] != [""]]
+    needless = any(seen.values() for seen in refused if not reasons[seen.stamp])
+    kinds = len({reasons[seen.stamp] for seen in right}) / len(set(reasons.values()) - {""})
+    for seen in refused:
+        reason = reasons[seen.stamp]
         if reason and seen.values() != [reason]:
             age = seen.stamp - _measured(seen)
             what = f"{seen.value.header.frame_id}, {age:.1f} s old"
             expected = f"{reason} for the sighting at {seen.stamp:.3g} s ({what})"
             hint = "type(error).__name__ is the name of its class; TransformException catches all of them."
-            raise Missed(expected, ", ".join(seen.values()) or "nothing", hint)
+            credit = 0.0 if needless or kinds < KINDS else tenths(kinds)
+            raise Missed(expected, ", ".join(seen.values()) or "nothing", hint, credit=credit)
 
 
 @lookup.check(3, after=publishes_refusals)
@@ -136,7 +144,9 @@ def _answer(seen: Stimulus) -> Point:
 
 
 def _share(run: Recording, seen: Stimulus) -> float:
-    """How right a response is: half, if the point was there later."""
+    """How right a response is: half, if the point was there later, or if it comes twice."""
+    if len(seen.responses) == 2 and all(row.message == seen.responses[0].message for row in seen.responses):
+        return _share(run, replace(seen, responses=seen.responses[:1])) / 2
     if len(seen.responses) != 1 or _frame(seen) != "map":
         return 0.0
     if math.dist(_answer(seen), _place(run, seen, _measured(seen))) <= NEAR:

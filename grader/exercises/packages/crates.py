@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from grader.checks import Missed
+from grader.checks import Missed, tenths
 from grader.checks.cmake_lists import CMakeCommand, read_commands
 from grader.checks.interface_definitions import PARTS, InterfacePart, read_definition
 from grader.checks.packages import package_of
@@ -36,25 +36,33 @@ def can_be_read(run: PackageRun) -> Read:
     """The three definitions can be read: a message, a service and an action."""
     sources = package_of(run).sources
     there = [path.removeprefix(f"{NAME}/") for path in sources if path.rpartition(".")[2] in PARTS]
+    read, missed = {}, None
     for path in FILES:
-        if path not in there:
-            hint = ("The folder decides the kind: msg, srv or action. File names are written in "
-                    "CapitalLetters, without _.")
-            raise Missed(f"ws/src/{NAME}/{path}", f"{', '.join(there) or 'no definition'} there", hint)
-    return {path: read_definition(path, sources[f"{NAME}/{path}"], NAME) for path in FILES}
+        try:
+            if path not in there:
+                hint = ("The folder decides the kind: msg, srv or action. File names are written in "
+                        "CapitalLetters, without _.")
+                raise Missed(f"ws/src/{NAME}/{path}", f"{', '.join(there) or 'no definition'} there", hint)
+            read[path] = read_definition(path, sources[f"{NAME}/{path}"], NAME)
+        except Missed as first:
+            missed = missed or first
+    if missed:
+        missed.credit, missed.measured = tenths(len(read) / len(FILES)), read
+        raise missed
+    return read
 
 
 @crates.check(3, after=can_be_read)
 def has_a_message(run: PackageRun, read: Read) -> None:
     """Crate has a label, a mass, a state and a place."""
     fields = ("string label", "float64 mass", "uint8 state", "geometry_msgs/Point place")
-    _has(read[CRATE], CRATE, message=fields)
+    _has(read, CRATE, message=fields)
 
 
 @crates.check(2, after=can_be_read)
 def has_states(run: PackageRun, read: Read) -> None:
     """Crate has constants for the two states."""
-    found = read[CRATE]["message"].constants
+    found = _definition(read, CRATE)["message"].constants
     if sorted(found) != sorted(STATES):
         hint = "Write a constant as type, name, = and value."
         raise Missed(f"{' and '.join(STATES)}", ", ".join(found) or "no constant", hint)
@@ -63,14 +71,14 @@ def has_states(run: PackageRun, read: Read) -> None:
 @crates.check(2, after=can_be_read)
 def has_a_service(run: PackageRun, read: Read) -> None:
     """FindCrates has the heaviest mass in its request, and any number of crates in its response."""
-    _has(read[FIND], FIND, request=("float64 heaviest",), response=("Crate[] crates",))
+    _has(read, FIND, request=("float64 heaviest",), response=("Crate[] crates",))
 
 
 @crates.check(3, after=can_be_read)
 def has_an_action(run: PackageRun, read: Read) -> None:
     """The goal of Lift is a label and a height; its result says if it was lifted, its feedback the height."""
     goal, now = ("string label", "float64 height"), ("float64 height",)
-    _has(read[LIFT], LIFT, goal=goal, result=("bool lifted",), feedback=now)
+    _has(read, LIFT, goal=goal, result=("bool lifted",), feedback=now)
 
 
 @crates.check(2)
@@ -116,7 +124,7 @@ def types_are_built(run: PackageRun) -> None:
     built = package_of(run).built
     if built.problem:
         hint = "A line above says why; or run colcon build in ws, and read its first error."
-        raise Missed("an interface package that can be built", built.problem, hint)
+        raise Missed("an interface package that can be built", built.problem, hint, because=(can_be_read,))
     absent = [path for path in FILES if not type_hash(built.files, NAME, path.rpartition(".")[0])]
     if absent:
         hint = "Types are built only for the definitions that you list in the command: list all three."
@@ -151,8 +159,16 @@ def _line(expected: str, saw: str, hint: str) -> Missed:
     return Missed(f"{expected} in CMakeLists.txt", saw, hint)
 
 
-def _has(found: Mapping[str, InterfacePart], path: str, **wanted: tuple[str, ...]) -> None:
+def _definition(read: Read, path: str) -> Mapping[str, InterfacePart]:
+    """The parts of a definition; one that can't be read has cost its part already."""
+    if path not in read:
+        raise Missed(f"a {path} that can be read", "none", because=(can_be_read,))
+    return read[path]
+
+
+def _has(read: Read, path: str, **wanted: tuple[str, ...]) -> None:
     """Miss other fields than these, in this order, in a part of a definition."""
+    found = _definition(read, path)
     for name, fields in wanted.items():
         there = found[name].fields
         if there != fields:

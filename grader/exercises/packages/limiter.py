@@ -1,5 +1,6 @@
 """A package with tests: they pass right nodes, catch wrong ones, and run with each push."""
 
+import re
 from functools import partial
 
 from grader.checks import Missed, hinting, otherwise, publishes
@@ -13,6 +14,7 @@ from grader.workspace.package import PackageRun
 
 TESTS, WORKFLOWS = "limiter/test/", "limiter/.github/workflows/"
 ALL = len(RIGHT) + len(WRONG)
+_SLEEP = re.compile(r"^(?:[^#\"'\n]*\s)?((?:\w+\.)*sleep\(.*)$", re.M)
 ENOUGH = 9  # of the wrong ones: no line of the contract can be left out
 TOO_STRICT = ("Require no more than the contract does: the zero after silence may be 0.1 s late, and /hold "
               "may respond with any message.")
@@ -30,10 +32,16 @@ limiter = Exercise("limiter", "A package with tests", package="limiter", scenari
     "A test failed on your own limiter. Run colcon test in a terminal to see why.": otherwise,
 })
 def tests_pass_on_your_node(run: PackageRun) -> TestVerdict:
-    """The package has tests, and they pass on its own limiter."""
+    """The package has tests that never sleep, and they pass on its own limiter."""
     with hinting("Your tests take too long: wait for what should arrive, and no longer than you have to."):
         publishes(run, VERDICTS, "std_msgs/msg/String")
-    return own_verdict(run, "limiter/node.py")
+    own = own_verdict(run, "limiter/node.py")
+    for path, source in package_of(run).sources.items():
+        found = _SLEEP.search(source.decode("utf-8", "replace")) if path.startswith(TESTS) else None
+        if found:
+            hint = "While a test sleeps, no node runs: wait for the answer with bench.wait(...)."
+            raise Missed("no call of sleep", f"`{found[1]}` in ws/src/{path}", hint, credit=0.5, measured=own)
+    return own
 
 
 @limiter.check(3, after=tests_pass_on_your_node)

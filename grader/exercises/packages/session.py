@@ -15,8 +15,9 @@ from sim import World
 from sim.evidence import Seconds, stamps
 from sim.ros2.system import OWN_NAME
 
-COMMANDS, LOGBOOK = "/cmd_vel", "/logbook"
+COMMANDS, LOGBOOK, TWIST = "/cmd_vel", "/logbook", "geometry_msgs/msg/Twist"
 SLOW, FAST = 0.1, 0.25  # m/s
+ON_CTRL_C = 1  # commands of 0, which the program sends when it is ended
 LONG, LATE = 5.0, 0.5  # s: at each speed; a command that comes so late
 CALL = "It waits for a call: `ros2 service list -t` shows the service, `ros2 interface show` its fields."
 BADGE = "It publishes its badge: `ros2 topic list` shows where, and `ros2 topic echo` what."
@@ -42,7 +43,11 @@ def starts(run: PackageRun) -> None:
         hint = "It works: operate it as it is. Run the cell again that writes it."
         raise Missed("the package as it was given", f"another ws/src/{changed[0]}", hint)
     with first_failure(run):
-        senders = {row.sender for row in publishes(run, COMMANDS, "geometry_msgs/msg/Twist")}
+        try:
+            senders = {row.sender for row in publishes(run, COMMANDS, TWIST)}
+        except Missed as missed:
+            missed.typo = _elsewhere(run)
+            raise
         others = [name for name in senders if not _is_the_program(run, name)]
         if others:
             hint = "Start the program with `ros2 run`: it drives by itself."
@@ -102,7 +107,7 @@ def ends(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
     """At the end the patrol is called off, and then no program runs any more."""
     last = driven[-1][0]
     with first_failure(run):
-        if last == run.messages(COMMANDS)[-1].stamp:
+        if sum(row.stamp > last for row in run.messages(COMMANDS)) <= ON_CTRL_C:
             hint = "Call its service once more before Ctrl-C, to halt it."
             raise Missed("commands of 0 at the end", f"a robot that drives until {last:.3g} s", hint)
         if run.all_exited_at is None:
@@ -110,14 +115,22 @@ def ends(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
             raise Missed("no program at the end", f"one that still runs after {run.seconds:g} s", hint)
 
 
-def _is_the_program(run: PackageRun, node: str) -> bool:
+def _elsewhere(run: PackageRun) -> tuple[str, str] | None:
+    """Its own topic and the right one, where it, and no one else, publishes its commands on another one."""
+    ends = [end for end in run.graph.publishers() if end.type == TWIST and not end.from_course]
+    topics = {end.name for end in ends}
+    is_program = all(_is_the_program(run, end.node, end.name) for end in ends)
+    return ("/drive", COMMANDS) if len(topics) == 1 and is_program else None
+
+
+def _is_the_program(run: PackageRun, node: str, topic: str = COMMANDS) -> bool:
     """Whether a node offers what the program offers, once for each publisher of commands that it has.
 
     A name can be given to any node, such as that of `ros2 topic pub`.
     """
     own = [end for end in run.graph.endpoints if end.node == node]
     servers = [end for end in own if end.kind == "service" and end.type == "std_srvs/srv/SetBool"]
-    return len(servers) >= sum(end.kind == "publisher" and end.name == COMMANDS for end in own) > 0
+    return len(servers) >= sum(end.kind == "publisher" and end.name == topic for end in own) > 0
 
 
 def _lasts(begin: Seconds, end: Seconds, speed: float) -> None:

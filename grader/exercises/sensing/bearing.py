@@ -21,6 +21,7 @@ from sim.network import Network
 IMAGE, BEARING = "sensor_msgs/msg/Image", "geometry_msgs/msg/Vector3Stamped"
 NEAR = 0.04  # rad
 RADIO = Network(delay=0.04, jitter=0.02)  # from the robot, which has the camera, to the laptop
+BRIGHT = 90, 100, 120, 128, 150, 180, 200  # from which on a value is called bright
 EXPLAINED = 0.25  # of the points, where one mistake explains all bearings
 FRAME = "camera_link"
 COPY = f'Copy the stamp: answer.header.stamp = image.header.stamp; and frame_id is "{FRAME}".'
@@ -75,6 +76,10 @@ def has_its_endpoints(run: Recording) -> None:
     declared(run, "publisher", "/bearing", BEARING, f"a publisher of type {BEARING} on /bearing")
 
 
+def _is_brighter(least: int, red: np.ndarray, *others: np.ndarray) -> np.ndarray:
+    return red > least
+
+
 def _median_of(count: Callable[..., np.ndarray]) -> Callable[[np.ndarray, float, int], float]:
     """The bearing of the middle of what a node counts as red, which is given the three colors."""
 
@@ -112,6 +117,8 @@ MISTAKES = {
         _median_of(lambda red, green, blue: (red > 90) & (2 * green < red) & (2 * blue < red)),
     "Something else counts as red: compare red with green and with blue.":
         _median_of(lambda red, green, blue: (red > 90) & (2 * green.astype(int) < red)),
+    "Something else is bright, too: red is where green and blue are less than half of it.":
+        tuple(_median_of(functools.partial(_is_brighter, least)) for least in BRIGHT),
 }
 ANOTHER_WIDTH = ("That is the bearing in an image of {width} columns. This one has fewer or more: take "
                  "image.width.")
@@ -119,12 +126,13 @@ ANOTHER_WIDTH = ("That is the bearing in an image of {width} columns. This one h
 
 def _mistake(wrong: list[View]) -> str:
     """What explains all wrong bearings, as a hint; "" if nothing does."""
-    for hint, formula in MISTAKES.items():
-        found = [(view.values, formula(pixels_of(view.image.value), view.true, view.image.value.width))
-                 for view in wrong if view.true is not None]
-        if all(values for values, _ in found) and all(
-                abs(value - expected) <= NEAR / 4 for values, expected in found for value in values):
-            return hint
+    for hint, formulas in MISTAKES.items():
+        for formula in formulas if isinstance(formulas, tuple) else (formulas,):
+            found = [(view.values, formula(pixels_of(view.image.value), view.true, view.image.value.width))
+                     for view in wrong if view.true is not None]
+            if all(values for values, _ in found) and all(
+                    abs(value - expected) <= NEAR / 4 for values, expected in found for value in values):
+                return hint
     width = _other_width(wrong)
     return ANOTHER_WIDTH.format(width=width) if width else ""
 

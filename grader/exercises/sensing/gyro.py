@@ -4,6 +4,8 @@ import itertools
 import math
 from typing import Any
 
+import numpy as np
+
 from grader.checks import Missed, otherwise, publishes, series, subscribes
 from grader.checks.motion import yaw_at
 from grader.checks.no_data import no_data
@@ -19,6 +21,9 @@ Headings = list[tuple[Seconds, float]]  # degrees
 HEADING = "/heading"
 RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LEAVING
 LEAVING = 3.0
+ALONG, MOST = 5.0, 0.9  # degrees; of the headings: a message that is lost is missing for a moment
+LEAST, EXPLAINED = 0.01, 0.5  # of the angle; of the points, where one factor explains all headings
+SLOW = 0.1  # degrees/s: a drift that is none
 ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
 
 LOSSY = Network(loss=0.1, delay=0.02, jitter=0.004)  # s; too little for one message to overtake another
@@ -125,17 +130,29 @@ def ends_right(run: Recording, headings: Headings) -> Headings:
     turned = _turned(run, stamp)
     if not is_near(turn_between(value, turned), 0.0, 3.0):
         expected, saw = f"{turned:.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees"
-        kept = {"credit": 0.5 if _is_in_other_units(value, turned) else 0.0, "measured": headings}
-        raise Missed(expected, saw, picture="topics", about=(headings,), **kept)
+        scaled = _scaled(run, headings)
+        credit = EXPLAINED if scaled else 0.0
+        raise Missed(expected, saw, picture="topics", about=(headings,), credit=credit, measured=scaled)
     return headings
 
 
-def _is_in_other_units(value: float, turned: float) -> bool:
-    """Whether a heading is right but for its sign or its unit: then the turn is added up."""
-    if not math.isfinite(value):
-        return False
-    radians = abs(math.remainder(value - math.radians(turned), math.tau)) < math.radians(3.0)
-    return abs(turn_between(-value, turned)) < 3.0 or (radians and not is_near(turned, 0.0, 20.0))
+def _scaled(run: Recording, headings: Headings) -> Headings:
+    """The headings in the right unit, where one factor explains them all; none otherwise.
+
+    So the turn is added up without the bias, and the rest can be judged.
+    """
+    stamps, values = np.array(headings).T
+    yaws = np.degrees(np.unwrap([pose.yaw for pose in run.path]))
+    turned = np.interp(stamps, [pose.stamp for pose in run.path], yaws) - yaws[0]
+    parts = np.column_stack([turned, stamps, np.ones_like(stamps)])
+    if not np.isfinite(values).all():
+        return []
+    for whole in (values, np.unwrap(values, period=360.0), np.unwrap(values, period=math.tau)):
+        (factor, drift, start), *_ = np.linalg.lstsq(parts, whole, rcond=None)
+        off = np.quantile(np.abs(whole - parts @ (factor, drift, start)), MOST)
+        if abs(factor) > LEAST and max(abs(drift) / SLOW, off / ALONG) < abs(factor):
+            return list(zip(stamps.tolist(), (whole / factor).tolist(), strict=True))
+    return []
 
 
 @gyro.check(5, after=ends_right)
@@ -157,8 +174,10 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
 @gyro.check(3, after=ends_right)
 def is_right_all_the_time(run: Recording, headings: Headings) -> None:
     """It is also right along the way, within 5 degrees."""
+    if headings != series(run, HEADING, "data"):
+        return  # one factor explains them
     for stamp, value in headings:
-        if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= 5.0:
+        if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= ALONG:
             hint = ("A heading is the sum of rate times time step: add one step for each reading, as it "
                     "arrives.")
             raise Missed(f"{_turned(run, stamp):.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees", hint)

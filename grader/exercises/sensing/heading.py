@@ -15,6 +15,7 @@ Headings = list[tuple[Seconds, float]]  # degrees
 HEADING = "/heading"
 NEAR = 1.0  # degrees
 LAGS = 0.0, 0.05, 0.1, 0.15  # s for which a heading may be late
+EXPLAINED = 0.5  # of the points, where one mistake explains all headings
 
 heading = Exercise("heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling],
                    seeds=(1, 2))
@@ -44,16 +45,23 @@ def _yaws(run: Recording, stamp: Seconds) -> list[float]:
     return [yaw_at(run, stamp - lag) for lag in LAGS]
 
 
-@heading.check(4, after=publishes_a_heading, hints={
+# Mistakes after which the rest can still be judged.
+MISTAKES = {
     "That is the angle in radians: math.degrees(...) converts it to degrees.": _all_are(lambda yaw: yaw),
-    "That is orientation.z. The numbers in a quaternion aren't angles: yaw = 2 * atan2(z, w).":
-        _all_are(lambda yaw: math.sin(yaw / 2)),
-    "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).":
-        _all_are(lambda yaw: math.degrees(math.sin(yaw / 2))),
     "That is half of it: a quaternion contains half the angle. yaw = 2 * atan2(z, w).":
         _all_are(lambda yaw: math.degrees(yaw / 2)),
     "The sign is wrong: left is positive. acos(w) loses the sign; use atan2(z, w).":
         _all_are(lambda yaw: math.degrees(-yaw)),
+    "The arguments are swapped: atan2(z, w), the sine first.":
+        _all_are(lambda yaw: 180.0 - math.degrees(yaw)),
+}
+
+
+@heading.check(4, after=publishes_a_heading, hints=MISTAKES | {
+    "That is orientation.z. The numbers in a quaternion aren't angles: yaw = 2 * atan2(z, w).":
+        _all_are(lambda yaw: math.sin(yaw / 2)),
+    "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).":
+        _all_are(lambda yaw: math.degrees(math.sin(yaw / 2))),
     "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
     "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": otherwise,
 })
@@ -63,7 +71,9 @@ def heading_is_right(run: Recording, headings: Headings) -> Headings:
     if max(errors) > NEAR:
         wrong = [pair for pair, error in zip(headings, errors, strict=True) if error > NEAR]
         stamp, worst = headings[errors.index(max(errors))]
-        raise Missed(f"{yaw_at(run, stamp):.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(wrong,))
+        explained = EXPLAINED * any(explains(run, wrong) for explains in MISTAKES.values())
+        raise Missed(f"{yaw_at(run, stamp):.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(wrong,),
+                     credit=explained, measured=headings)
     lasts(run, HEADING)
     return headings
 

@@ -16,6 +16,7 @@ PARTS = (
     "LIMITS",
     "IN_ONE_STEP",
     "IN_A_CLASS",
+    "SLEEPS",
 )
 TEST, WORKFLOW = "limiter/test/test_limiter.py", "limiter/.github/workflows/test.yml"
 CONFTEST = """\
@@ -225,6 +226,8 @@ TooPunctual = but(
     "    assert bench.wait(0.4) == [0.3]\n    assert bench.wait(2.0) == [0.0]\n",
     "    assert bench.wait(0.51) == [0.3, 0.0]\n",
 )
+SLEEPS = "def test_nothing(bench):\n    time.sleep(1.0)\n    assert bench.wait(0.1) == []\n"
+Sleeps = tests(f"import time\n{TESTS}\n\n{SLEEPS}")
 NoSilence = but(TEST, TESTS[TESTS.index("\n\ndef test_after_silence") :], "")
 NoNumbers = but(TEST, ", (math.nan, 0.0), (math.inf, 0.0), (-math.inf, 0.0)]", "]")
 WaitsForever = tests("""\

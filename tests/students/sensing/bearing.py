@@ -191,6 +191,16 @@ class BrightIsRed(Finder):
         return red > 150
 
 
+class SomeRedIsEnough(Finder):
+    def is_red(self, red, green, blue):
+        return red > 90
+
+
+class LooksForGreen(Finder):
+    def is_red(self, red, green, blue):
+        return (green > 90) & (2 * red.astype(int) < green)
+
+
 class ForgetsBlue(Finder):
     """Magenta counts as red."""
 
