@@ -107,7 +107,7 @@ def _counted(run: Recording) -> str:
 
 
 def _maps(run: Recording) -> list[list[int]]:
-    """The cells of each of the course's maps, whoever received it."""
+    """The cells of each of the course's maps, received or not."""
     return [list(row.message.data) for row in run.messages("/map") if row.from_course]
 
 
