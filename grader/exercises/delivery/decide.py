@@ -32,23 +32,6 @@ def knows_latched_messages(run: Recording) -> None:
     _compare(run, "past", PAST)
 
 
-@decide.check(1, after=decides)
-def has_the_frame_map(run: Recording) -> None:
-    """Goals are in the frame map, as /dock_pose and the orders are."""
-    for goal in from_student(run, GOAL):
-        frame = goal.message.header.frame_id
-        if frame != "map":
-            hint = "Publish the pose of the order or the dock unchanged: it contains header.frame_id."
-            raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
-
-
-@decide.check(2, after=decides)
-def publishes_twice_a_second(run: Recording) -> None:
-    """It publishes the goal twice a second, without a pause."""
-    for topic in (GOAL, STATE):
-        rate(run, topic, 2.0, tolerance=0.15)
-
-
 @decide.check(4, after=decides)
 def delivers_first(run: Recording) -> None:
     """A robot that carries a load delivers it, whatever else is requested."""
@@ -76,6 +59,42 @@ def keeps_to_one(run: Recording) -> None:
     hint = ("Stay with the order you began as long as it can be delivered; otherwise take the earliest "
             "deadline.")
     _compare(run, "keeps", hint)
+
+
+RULES = {
+    "past": knows_latched_messages, "delivers": delivers_first, "charges": charges, "gives up": gives_up,
+    "keeps": keeps_to_one,
+}
+
+
+@decide.check(1, after=decides)
+def has_the_frame_map(run: Recording) -> None:
+    """Goals are in the frame map, as /dock_pose and the orders are."""
+    _require_a_decision(run)
+    for goal in from_student(run, GOAL):
+        frame = goal.message.header.frame_id
+        if frame != "map":
+            hint = "Publish the pose of the order or the dock unchanged: it contains header.frame_id."
+            raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
+
+
+@decide.check(2, after=decides)
+def publishes_twice_a_second(run: Recording) -> None:
+    """It publishes the goal twice a second, without a pause."""
+    _require_a_decision(run)
+    for topic in (GOAL, STATE):
+        rate(run, topic, 2.0, tolerance=0.15)
+
+
+def _require_a_decision(run: Recording) -> None:
+    """Raise Missed if no rule is kept: the rules explain it, and who decides nothing earns nothing."""
+    for about in RULES:
+        try:
+            return _compare(run, about, "")
+        except Missed as missed:
+            last = missed
+    last.because = tuple(RULES.values())
+    raise last
 
 
 def _compare(run: Recording, about: str, hint: str) -> None:
