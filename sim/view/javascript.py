@@ -9,7 +9,8 @@ from importlib.resources import files
 
 _WEB = files("sim.view") / "web"
 _BASE = ("checks.js", "elements.js", "theme.js")
-_PICTURE = (*_BASE, "drawing.js", "camera.js", "legend.js", "world_canvas.js", "graph.js", "topic.js")
+_WORLD = ("drawing.js", "camera.js", "legend.js", "layers.js", "world_canvas.js")
+_PICTURE = (*_BASE, *_WORLD, "graph.js", "topic.js")
 _FILES = {
     "live.js": _PICTURE,
     "replay.js": (*_PICTURE, "cursor.js", "packed.js", "replay_run.js"),

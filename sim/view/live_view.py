@@ -17,6 +17,7 @@ from sim.evidence import Recording
 from sim.notebook import failure_html, failure_lines, notebook_page
 from sim.view.graph_data import graph_data
 from sim.view.javascript import script
+from sim.view.layers import NewestLayers
 from sim.view.replay import replay
 from sim.view.strokes import visible_strokes
 from sim.view.world_data import world_data
@@ -44,6 +45,7 @@ class LiveView(anywidget.AnyWidget):
     _esm = script("live.js")
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
+    layers = traitlets.List().tag(sync=True)  # maps, plans and goals
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
     inputs = traitlets.List(traitlets.Unicode()).tag(sync=True)  # what nodes read besides: "keys", "points"
 
@@ -51,6 +53,7 @@ class LiveView(anywidget.AnyWidget):
         super().__init__(world=world and world_data(world), inputs=list(inputs))
         self.on_command: Callable[[Command], None] | None = None
         self._reports = reports  # whether the end shows the failure of the run
+        self._newest_layers = NewestLayers()
         self._display: DisplayHandle | None = None
         self.on_msg(self._on_message)
 
@@ -68,11 +71,12 @@ class LiveView(anywidget.AnyWidget):
 
     def state(self, state: dict[str, Any]) -> None:
         """Show the status of the run; see `Picture.state` in sim/ros/play."""
-        speed = state["speed"]
+        recording, speed = state["recording"], state["speed"]
+        self.layers = self._newest_layers.update(recording) or self.layers
         more = {"speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
         if "drawing" in state:
             more |= {"drawing": None, "drawn": visible_strokes(state["drawing"])}
-        self.status = {**state, **more}
+        self.status = {name: value for name, value in {**state, **more}.items() if name != "recording"}
 
     def connections(self, recording: Recording) -> None:
         """Show the current connections between nodes."""

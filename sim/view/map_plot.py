@@ -12,7 +12,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 
 from sim.evidence import Recording
-from sim.view.plot import CAUTION, PATH, WARNING, Plot, legend_beside, note_failure, plot
+from sim.view.plot import CAUTION, PATH, Plot, legend_beside, note_failure, plot
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
 RADIUS = 0.1  # of the robot's marker, m
@@ -73,7 +73,7 @@ def _draw_path(axes: Axes, points: list[tuple[float, float]]) -> None:
 
 
 def _draw_robot(axes: Axes, x: float, y: float, yaw: float) -> None:
-    axes.add_patch(Circle((x, y), RADIUS, facecolor=WARNING, edgecolor="black", alpha=0.8, label="robot"))
+    axes.add_patch(Circle((x, y), RADIUS, facecolor=PATH, edgecolor="black", alpha=0.8, label="robot"))
     nose = x + 2 * RADIUS * math.cos(yaw), y + 2 * RADIUS * math.sin(yaw)
     axes.plot([x, nose[0]], [y, nose[1]], color="black", linewidth=1.5)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sim.evidence import Recording
+from sim.view.layers import layers_of
 from sim.view.packing import deflated
 from sim.view.replay_data import VERSION, event_marks, mark_rows, motion, run_end, run_key
 from sim.view.strokes import all_strokes
@@ -27,6 +28,7 @@ def _packed(recording: Recording, **settings: bool | float) -> str:
         **{"version": VERSION, "run": run_key(recording), "end": end, **settings},
         **{"failure": recording.failure[:FAILURE], "scans": [], "logs": [], "topics": []},
         **{"world": world_data(recording.world, recording.bodies), **motion(recording)},
+        "layers": layers_of(recording),
         "marks": mark_rows(event_marks(recording), (end, "end", "the run ended.", None)),
     }
     if recording.drawing is not None:

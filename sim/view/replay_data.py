@@ -18,6 +18,7 @@ from sim.evidence import Recording, rate, stamps
 from sim.view.body_tracks import body_tracks, pose_at, presence_intervals
 from sim.view.graph_data import graph_data
 from sim.view.last_event import last_event
+from sim.view.layers import layers_of
 from sim.view.packing import deflated
 from sim.view.replay_values import inspected, strip_of
 from sim.view.strokes import all_strokes, thinned
@@ -59,6 +60,7 @@ def pack(recording: Recording, speed: float, moments: Sequence[Moment] = (), pla
     if recording.world is not None:
         world = world_data(recording.world, recording.bodies)
         data |= {"world": world, **motion(recording), "scans": list(_scans(recording))}
+        data |= {"layers": layers_of(recording)}
     if recording.drawing is not None:
         data |= {"drawing": all_strokes(recording.drawing)}
     topics = _topics(recording)

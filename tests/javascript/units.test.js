@@ -10,11 +10,12 @@ const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"],
 const { before } = load(["elements"], ["before"]);
 const { viewAt } = load(["camera"], ["viewAt"]);
 const { cumulated, unchanged, topicAt, checkRun } = load(
-  ["checks", "elements", "drawing", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun"],
+  ["checks", "elements", "drawing", "layers", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun"],
 );
 const { isAtGoal } = load(["checks", "world_canvas"], ["isAtGoal"]);
 const { tipPath } = load(["checks", "world_canvas"], ["tipPath"]);
 const { visibleAt } = load(["checks", "elements", "drawing"], ["visibleAt"]);
+const { checkLayer, layersAt } = load(["checks", "elements", "layers"], ["checkLayer", "layersAt"]);
 const { legendOf } = load(["legend"], ["legendOf"]);
 const { timeOf } = load(["cursor"], ["timeOf"]);
 
@@ -154,4 +155,15 @@ test("tabs of lessons, exercises and pages of the bridge have names of their own
   assert.equal(tabName("work/exercises/01_nodes/nodes.ipynb"), "1 Nodes: exercises");
   assert.equal(tabName("course/bridge/05_security.ipynb"), "B5 Security");
   assert.equal(tabName("notes.ipynb"), "");
+});
+
+test("layers are parsed, and each topic shows its newest one", () => {
+  const grid = { stamp: 0, topic: "/map", kind: "map", data: { width: 2, place: [0, 0, 0.5], runs: [[0, 3], [100, 1]] } };
+  const plan = (stamp) => ({ stamp, topic: "/plan", kind: "plan", data: [[0, 0], [stamp, 1]] });
+  const layers = [grid, plan(1000), plan(2000)].map(checkLayer);
+  assert.deepEqual(layers[0].data.cells, [0, 0, 0, 100]);
+  assert.deepEqual(layersAt(layers, 0.5).map(({ topic }) => topic), ["/map"]);
+  assert.deepEqual(layersAt(layers, 2.5).map(({ stamp }) => stamp), [0, 2]);
+  assert.throws(() => checkLayer({ ...grid, kind: "cloud" }), { message: "a kind of layer was expected" });
+  assert.throws(() => checkLayer({ ...grid, data: { ...grid.data, runs: [[0, 3e5]] } }));
 });

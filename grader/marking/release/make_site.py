@@ -18,35 +18,39 @@ import nbformat
 from grader.course_notebooks import BRIDGE, course_order
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute
+from grader.marking.release.site_home import home_page
 from grader.work_folder import student_files
 
 SETTINGS = Path(__file__).with_name("sphinx_settings.py")
 PAGES = ("glossary.md", "real_robot.md", "TUTOR.md")  # of course/, in this order
 NOTEBOOK_LINK = re.compile(r'(href="[^":]+)\.ipynb(?=[#"])')
+START = Path("course", "start.ipynb")  # a student's own progress: the site has a home page in its place
 INDEX = """# ROS 2 in notebooks
 
-Lessons with what they print and show, and the tasks. To run and to solve them, get the course.
+```{{raw}} html
+:file: home.html
+```
 
 ```{{toctree}}
-:maxdepth: 1
+:hidden:
 :caption: Overview
 {overview}
 ```
 
 ```{{toctree}}
-:maxdepth: 1
+:hidden:
 :caption: Lessons
 {lessons}
 ```
 
 ```{{toctree}}
-:maxdepth: 1
+:hidden:
 :caption: Other systems
 {bridge}
 ```
 
 ```{{toctree}}
-:maxdepth: 1
+:hidden:
 :caption: Tasks
 {tasks}
 ```
@@ -61,6 +65,8 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
     notebooks = {"course": [], "exercises": []}
     for source in sorted(student_files(course), key=course_order):
         name = source.relative_to(course)
+        if name == START:
+            continue
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
@@ -70,7 +76,7 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
         if not chosen or name.parent.name in chosen:
             report(str(name))
             _write_executed(course / name, folder / name)
-    overview = ["course/start", *(f"course/{page.removesuffix('.md')}" for page in PAGES)]
+    overview = [f"course/{page.removesuffix('.md')}" for page in PAGES]
     lessons = [name.with_suffix("").as_posix() for name in notebooks["course"] if len(name.parts) > 2]
     bridge = [name for name in lessons if name.startswith(f"course/{BRIDGE}/")]
     tasks = [name.with_suffix("").as_posix() for name in notebooks["exercises"]]
@@ -78,6 +84,7 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
     lists = {"overview": overview, "lessons": lessons, "bridge": bridge, "tasks": tasks}
     text = INDEX.format(**{name: "\n".join(entries) for name, entries in lists.items()})
     (folder / "index.md").write_text(text, encoding="utf-8")
+    (folder / "home.html").write_text(home_page(course), encoding="utf-8")
     shutil.copyfile(SETTINGS, folder / "conf.py")
 
 

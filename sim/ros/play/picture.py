@@ -30,9 +30,10 @@ class Picture(Protocol):
     def state(self, state: dict) -> None:
         """Show the state; called at most 4 times a second, and whenever speed, paused or ended changes.
 
-        Keys: stamp (s), speed (requested; may be inf), pace (measured), paused, topics (a list of dicts of
-        name, type, count of messages, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason,
-        detail]), numbers and topic as `Telemetry.update` returns them, and drawing if the world has pens.
+        Keys: recording (until now), stamp (s), speed (requested; may be inf), pace (measured), paused,
+        topics (a list of dicts of name, type, count of messages, and rate in Hz), contacts (a list of
+        [x, y]), ended (None, or [reason, detail]), numbers and topic as `Telemetry.update` returns them, and
+        drawing if the world has pens.
         """
 
     def connections(self, recording: Recording) -> None:
@@ -75,7 +76,8 @@ class PictureUpdater:
             return
         self._last = now, urgent
         contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-MAX_CONTACTS:]]
-        state = {"stamp": stamp, "pace": pace, "topics": self._topics(session), "contacts": contacts}
+        state = {"recording": session.recording, "stamp": stamp, "pace": pace}
+        state |= {"topics": self._topics(session), "contacts": contacts}
         if session.recording.drawing is not None:
             state["drawing"] = session.recording.drawing
         self._call("state", state | self.telemetry.update(session) | urgent)

@@ -149,9 +149,11 @@ class View {
     this.onFrame = (_, [buffer]) => this.frame(buffer);
     this.onStatus = () => this.showStatus();
     this.onGraph = () => this.showGraph();
+    this.onLayers = () => this.showLayers();
     model.on("msg:custom", this.onFrame);
     model.on("change:status", this.onStatus);
     model.on("change:graph", this.onGraph);
+    model.on("change:layers", this.onLayers);
     this.lastMessage = performance.now();
   }
 
@@ -169,6 +171,7 @@ class View {
       }
     }
     this.showGraph();
+    this.showLayers();
     this.showStatus();
   }
 
@@ -188,7 +191,15 @@ class View {
   }
 
   showLegend() {
-    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(legendOf(this.world, colors(this.root))));
+    const look = colors(this.root), entries = [...legendOf(this.world, look), ...legendOfLayers(this.picture.frame.layers ?? [], look)];
+    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(entries));
+  }
+
+  showLayers() {
+    if (!this.picture) return;
+    this.picture.frame = { ...this.picture.frame, layers: list(this.model.get("layers") ?? [], 20, checkLayer) };
+    this.showLegend();
+    this.picture.requestPaint();
   }
 
   close() {
@@ -196,6 +207,7 @@ class View {
     this.model.off("msg:custom", this.onFrame);
     this.model.off("change:status", this.onStatus);
     this.model.off("change:graph", this.onGraph);
+    this.model.off("change:layers", this.onLayers);
     this.pad?.close();
     this.picture?.close();
   }

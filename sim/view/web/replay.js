@@ -18,13 +18,15 @@ class Player {
     this.root.dataset.lmSuppressShortcuts = "true";
     this.stage = make("div", { className: "stage" });
     this.side = make("div", { className: "side" });
-    const row = make("div", { className: "row" }, ...(run.world ? [this.stage] : []), this.side);
+    this.legend = make("div", { className: "legend" });
+    const controls = this.controls(), main = make("div", { className: "main" }, this.stage, this.legend, controls);
+    const rows = run.world ? [make("div", { className: "row" }, main, this.side)] : [this.side, controls];
     this.graph = new Graph();
     this.numbers = make("dl", { className: "numbers", hidden: !run.strip?.labels.length });
     this.values = (run.strip?.labels ?? []).map(() => make("dd"));
     this.values.forEach((value, index) => this.numbers.append(make("div", {}, make("dt", {}, run.strip.labels[index]), value)));
     this.failure = make("div", { className: "failure" }, run.failure);
-    this.root.append(make("style", {}, STYLE), row, this.controls(), this.numbers, this.graph.root);
+    this.root.append(make("style", {}, STYLE), ...rows, this.numbers, this.graph.root);
     if (run.failure) this.root.append(this.failure);
     this.strips = this.timeline();
     this.lines = make("div", { className: "logs" });
@@ -112,7 +114,9 @@ class Player {
   }
 
   paintStrips() {
-    this.failure.style.color = colors(this.root).failure;
+    const look = colors(this.root), { world, layers } = this.run;
+    this.failure.style.color = look.failure;
+    if (world) this.legend.replaceChildren(make("b", {}, world.name), ...legendElements([...legendOf(world, look), ...legendOfLayers(layers, look)]));
     for (const { canvas, strip } of this.strips) {
       const context = canvas.getContext("2d");
       context.clearRect(0, 0, STRIP, 1);
@@ -219,6 +223,7 @@ function frameAt(run, time) {
     poses, scan: run.scans[before(run.scans, time, stampOf)] || null,
     trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
     tip: run.tip && [...run.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: run.tip,
+    layers: layersAt(run.layers, time),
     drawn: run.drawing && visibleAt(run.drawing, time), reached: run.reached !== null && run.reached <= time + 1e-6,
     contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
   };
@@ -269,7 +274,7 @@ class PathPicture {
     const entries = [
       ...robots.map(({ name }, index) => ["—", look.robots[index % look.robots.length], index ? name : "path"]),
       ...(robots.length ? [["●", look.ghost, "start"]] : []), ...(tip ? [["—", look.robots[0], "tip's path"]] : []),
-      ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
+      ...legendOfLayers(this.run.layers, look), ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
     ];
     this.failure.style.color = look.failure;
     this.legend.replaceChildren(make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`), ...legendElements(entries));

@@ -80,6 +80,7 @@ function checkRun(run) {
     reached,
     marks: [...list(run.marks, 1000, event), ...success].sort((one, other) => one.stamp - other.stamp),
     logs: list(run.logs, 1000, event),
+    layers: list(run.layers ?? [], 500, checkLayer),
     strip: run.strip ? checkStrip(run.strip) : null,
     topics: topics.map((topic, index) => ({ ...topic, messages: messages[index] ?? null })),
   };

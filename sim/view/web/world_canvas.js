@@ -36,7 +36,7 @@ function tipPath(world, poses) {
 /** @typedef {{ pose: Pose, ranges: ArrayLike<number>, start: number, step: number, far: number }} LaserScan */
 /**
  * @typedef {{ poses: Pose[], scan: LaserScan | null, trails: Path[], ahead: Path[], contacts: number[][], starts?: Pose[],
- *   drawn?: any, tip?: Path, tipAhead?: Path, reached?: boolean }} Frame
+ *   drawn?: any, tip?: Path, tipAhead?: Path, reached?: boolean, layers?: Layer[] }} Frame
  */
 
 /**
@@ -45,7 +45,7 @@ function tipPath(world, poses) {
  * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
  * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
  * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end; reached,
- * whether a robot has been at the goal.
+ * whether a robot has been at the goal; layers, from ./layers.js.
  * There may be more turtles than at the start.
  */
 class WorldCanvas {
@@ -89,12 +89,18 @@ class WorldCanvas {
     this.requestPaint();
   }
 
+  /** What is as wide as the picture: in a replay its controls, too. */
+  get column() {
+    const { parentElement: around } = this.stage;
+    return around?.matches(".main") ? around : this.stage;
+  }
+
   /** Look for the panel around, which is there once the stage has been added to the page. */
   findPanel() {
     if (this.frameless) return;
     this.frameless = /** @type {HTMLElement} */ (this.stage.closest(".ros2-course-robot"));
     if (!this.frameless) return;
-    this.stage.style.maxWidth = "";
+    this.column.style.maxWidth = "";
     this.sizes.observe(this.frameless);
   }
 
@@ -103,7 +109,7 @@ class WorldCanvas {
     this.grown = false;
     const [left, bottom, right, top] = this.shown;
     const shape = Math.min(Math.max((top - bottom) / (right - left), 0.2), 1.1);
-    if (!this.frameless) this.stage.style.maxWidth = `${Math.round(MAX_HEIGHT / shape)}px`;
+    if (!this.frameless) this.column.style.maxWidth = `${Math.round(MAX_HEIGHT / shape)}px`;
     this.width = this.stage.clientWidth;
     this.most = this.mostHeight();
     this.height = Math.round(Math.min(this.width * shape, this.most));
@@ -151,8 +157,10 @@ class WorldCanvas {
     this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.context.lineJoin = this.context.lineCap = "round";
     this.floor();
+    paintMaps(this, this.frame.layers ?? []);
     const hits = this.rays();
     this.obstacles();
+    paintPlans(this, this.frame.layers ?? []);
     for (const { color, width, points } of this.frame.drawn?.strokes ?? []) {
       this.line(points, color, Math.max(width * this.scale, 1));
     }

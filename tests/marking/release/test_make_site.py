@@ -23,6 +23,7 @@ MAP = """
 from IPython.display import HTML
 HTML('<a href="../course/01_nodes/lesson.ipynb">Lesson 1</a> <a href="https://a.org/b.ipynb">b</a>')
 """
+LESSON = "# Lesson one\n\n$$\\frac{1}{2}$$\n\n[words](../glossary.md)\n\n**Time:** about 90 minutes."
 TEXTS = {
     "course/glossary.md": "# Glossary\n\n**node**: a program\n",
     "course/real_robot.md": "# A real robot\n",
@@ -41,8 +42,8 @@ def course(tmp_path: Path) -> Path:
     """A course with a start page, a lesson and a task."""
     code, text = nbformat.v4.new_code_cell, nbformat.v4.new_markdown_cell
     notebooks = {
-        "course/start.ipynb": (text("# Start\n\n[words](glossary.md)"), code(MAP)),
-        "course/01_nodes/lesson.ipynb": (text("# Lesson one\n\n$$\\frac{1}{2}$$"), code(REPLAY)),
+        "course/start.ipynb": (text("# Start"), code("raise SystemExit('not executed')")),
+        "course/01_nodes/lesson.ipynb": (text(LESSON), code(REPLAY), code(MAP)),
         "exercises/01_nodes/nodes.ipynb": (text("# Task one"), code("raise SystemExit('not executed')")),
     }
     for name, content in (TEXTS | {name: notebook(*cells) for name, cells in notebooks.items()}).items():
@@ -54,18 +55,15 @@ def course(tmp_path: Path) -> Path:
 def test_lessons_are_executed_and_tasks_are_not(course, tmp_path_factory):
     pages, lines = tmp_path_factory.mktemp("pages"), []
     make_site.write_pages(course, pages, [], lines.append)
-    assert lines == ["course/01_nodes/lesson.ipynb", "course/start.ipynb"]
-    lesson, task, start = (
-        json.loads((pages / name).read_text())["cells"][1]
-        for name in ("course/01_nodes/lesson.ipynb", "exercises/01_nodes/nodes.ipynb", "course/start.ipynb")
-        if len(json.loads((pages / name).read_text())["cells"]) > 1
-    )
+    assert lines == ["course/01_nodes/lesson.ipynb"]
+    names = "course/01_nodes/lesson.ipynb", "exercises/01_nodes/nodes.ipynb"
+    (_, lesson, links), (_, task) = (json.loads((pages / name).read_text())["cells"] for name in names)
     assert "<script" in "".join(lesson["outputs"][0]["data"]["text/html"])
-    assert task["outputs"] == []
-    page = "".join(start["outputs"][0]["data"]["text/html"])
+    assert task["outputs"] == [] and not (pages / "course" / "start.ipynb").exists()
+    page = "".join(links["outputs"][0]["data"]["text/html"])
     assert 'href="../course/01_nodes/lesson.html"' in page and 'href="https://a.org/b.ipynb"' in page
     index = (pages / "index.md").read_text()
-    names = ["course/start", "course/glossary", "course/real_robot", "course/TUTOR", "course/01_nodes/lesson"]
+    names = ["course/glossary", "course/real_robot", "course/TUTOR", "course/01_nodes/lesson"]
     assert [line for line in index.splitlines() if "/" in line] == [*names, "exercises/01_nodes/nodes"]
 
 
@@ -123,8 +121,11 @@ def test_a_folder_without_a_server_has_replays_search_and_links(course, monkeypa
     with chromium() as browser:
         page = browser.new_page()
         page.on("request", lambda request: elsewhere.append(request.url))
-        page.goto(f"{site}/course/start.html")
-        page.click("article a:has-text('Lesson 1')")
+        page.goto(f"{site}/index.html")
+        expect(page.locator(".home .ros2-view canvas").first).to_be_visible()
+        assert "about 90 minutes" in page.locator(".home .parts").inner_text()
+        assert page.locator("article").inner_text().count("points") == 1  # of the check that is shown
+        page.click("article a:has-text('1 Lesson one')")
         expect(page.locator("h1")).to_contain_text("Lesson one")
         expect(page.locator(".ros2-replay .ros2-view")).to_be_visible()
         expect(page.locator("math mfrac")).to_have_count(1)

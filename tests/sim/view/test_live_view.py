@@ -86,7 +86,7 @@ def test_a_run_without_a_world_has_a_view():
 
 
 def test_a_state_is_stored_for_later_pages_and_has_no_infinity(view):
-    view.state(STATE | {"speed": math.inf})
+    view.state(STATE | {"speed": math.inf, "recording": Recording()})
     assert view.status == STATE | {"speed": None}
 
 

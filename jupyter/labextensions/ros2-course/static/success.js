@@ -53,7 +53,8 @@ function passedText(name, checks, scores) {
 function doneText(name, cells) {
   if (cells.filter((cell) => cell.executionCount !== null).length < DONE * cells.length) return "";
   const pages = cells.flatMap((cell) => cell.outputs.toJSON()).map((output) => [output.data?.["text/html"] ?? ""].flat().join(""));
-  const outcomes = pages.filter((page) => page.startsWith(OUTCOME)).map((page) => new DOMParser().parseFromString(page, "text/html").body.firstElementChild.dataset);
+  const parser = new DOMParser();
+  const outcomes = pages.filter((page) => page.startsWith(OUTCOME)).map((page) => parser.parseFromString(page, "text/html").querySelector("div").dataset);
   const right = outcomes.filter(({ happened, predicted }) => happened === predicted).length;
   const made = outcomes.some(({ predicted }) => predicted);
   return `${name} done${made ? `, ${right} of ${outcomes.length} predictions right` : ""}.`;
