@@ -46,6 +46,12 @@ class Notebook:
         return f"{self.number} {self.title} ({self.kind})"
 
     @property
+    def heading(self) -> str:
+        """Its number and its title, which begins with a capital letter unless that is a program's name."""
+        first = self.title if "_" in self.title.split()[0] else f"{self.title[:1].upper()}{self.title[1:]}"
+        return f"{self.number} {first}"
+
+    @property
     def kind(self) -> str:
         """ "lesson", "page" or "exercises"."""
         if self.path.parent.name == BRIDGE:

@@ -92,8 +92,7 @@ def _picture(part: CoursePart) -> str:
 def _lesson(item: Notebook, address: Text) -> str:
     state = "done" if item.done else f"{item.run} of {item.cells} cells run"
     share = 1.0 if item.done else item.run / max(item.cells, 1)
-    title = f"{item.number} {item.title[:1].upper()}{item.title[1:]}"
-    link = _link(address(item.path), title)
+    link = _link(address(item.path), item.heading)
     return f'<div class="lesson">{_ring(share, state)}<h3>{link}</h3>{_time(item)}</div>'
 
 

@@ -19,6 +19,7 @@ from grader.course_notebooks import BRIDGE, course_order
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute
 from grader.marking.release.site_home import home_page
+from grader.marking.release.site_search import search_script
 from grader.work_folder import student_files
 
 SETTINGS = Path(__file__).with_name("sphinx_settings.py")
@@ -84,6 +85,8 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
     lists = {"overview": overview, "lessons": lessons, "bridge": bridge, "tasks": tasks}
     text = INDEX.format(**{name: "\n".join(entries) for name, entries in lists.items()})
     (folder / "index.md").write_text(text, encoding="utf-8")
+    pages = [*overview, *lessons, *bridge, *tasks]
+    (folder / "search.js").write_text(search_script(folder, pages), encoding="utf-8")
     (folder / "home.html").write_text(home_page(course), encoding="utf-8")
     shutil.copyfile(SETTINGS, folder / "conf.py")
 

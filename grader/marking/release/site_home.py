@@ -84,8 +84,7 @@ def _card(part: CoursePart, root: Path) -> str:
     rows = ""
     for item in lessons:
         address = item.path.relative_to(root).with_suffix(".html").as_posix()
-        title = html.escape(f"{item.number} {item.title[:1].upper()}{item.title[1:]}")
-        rows += f'<a href="{address}">{title}</a><span>{html.escape(item.time)}</span>'
+        rows += f'<a href="{address}">{html.escape(item.heading)}</a><span>{html.escape(item.time)}</span>'
     return f"<li>{cover if part.picture else ''}{rows}</li>"
 
 

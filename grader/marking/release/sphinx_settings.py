@@ -3,6 +3,7 @@
 Nothing of the site is loaded from the network, and it opens from a folder: search is a script, and formulas
 are MathML, which browsers draw themselves.
 """
+from pathlib import Path
 from typing import Any
 
 project = html_title = "ROS 2 in notebooks"
@@ -10,7 +11,7 @@ extensions = ["myst_nb"]
 html_theme = "furo"
 html_math_renderer = "mathml"
 html_show_sourcelink = html_copy_source = html_show_copyright = html_show_sphinx = False
-html_show_search_summary = False  # which pages in a folder can't load
+html_search_scorer = str(Path(__file__).with_name("search.js"))  # by site_search.py
 exclude_patterns = ["AGENTS.md", "README.md"]
 suppress_warnings = ["myst.header", "myst.xref_missing", "mystnb.mime_priority", "mystnb.unknown_mime_type"]
 nb_execution_mode = "off"  # they were executed before, in the course's own environment

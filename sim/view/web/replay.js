@@ -19,7 +19,7 @@ class Player {
     this.stage = make("div", { className: "stage" });
     this.side = make("div", { className: "side" });
     this.legend = make("div", { className: "legend" });
-    const controls = this.controls(), main = make("div", { className: "main" }, this.stage, this.legend, controls);
+    const controls = this.controls(), main = make("div", { className: "ros2-column" }, this.stage, this.legend, controls);
     const rows = run.world ? [make("div", { className: "row" }, main, this.side)] : [this.side, controls];
     this.graph = new Graph();
     this.numbers = make("dl", { className: "numbers", hidden: !run.strip?.labels.length });
@@ -31,7 +31,9 @@ class Player {
     this.strips = this.timeline();
     this.lines = make("div", { className: "logs" });
     if (run.logs.length) this.side.append(make("div", {}, make("div", { className: "head" }, "LOG"), this.lines));
-    if (!this.side.childElementCount) this.side.remove();
+    if (this.side.childElementCount) return;
+    this.side.remove();
+    this.root.classList.toggle("ros2-narrow", Boolean(run.world) && !run.strip);
   }
 
   /** Start drawing, after the root has been added to the page and has a size. */

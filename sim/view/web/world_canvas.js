@@ -89,10 +89,9 @@ class WorldCanvas {
     this.requestPaint();
   }
 
-  /** What is as wide as the picture: in a replay its controls, too. */
+  /** What is as wide as the picture: in a replay its controls, too, and all of it where there is nothing else. */
   get column() {
-    const { parentElement: around } = this.stage;
-    return around?.matches(".main") ? around : this.stage;
+    return /** @type {HTMLElement} */ (this.stage.closest(".ros2-narrow") ?? this.stage.closest(".ros2-column") ?? this.stage);
   }
 
   /** Look for the panel around, which is there once the stage has been added to the page. */

@@ -23,9 +23,9 @@ MAP = """
 from IPython.display import HTML
 HTML('<a href="../course/01_nodes/lesson.ipynb">Lesson 1</a> <a href="https://a.org/b.ipynb">b</a>')
 """
-LESSON = "# Lesson one\n\n$$\\frac{1}{2}$$\n\n[words](../glossary.md)\n\n**Time:** about 90 minutes."
+LESSON = "# Lesson one\n\n$$\\frac{1}{2}$$\n\n[words](../glossary.md)\n\nA program that **waits**.\n\n**Time:** about 90 minutes."
 TEXTS = {
-    "course/glossary.md": "# Glossary\n\n**node**: a program\n",
+    "course/glossary.md": "# Glossary\n\n| a | b | |\n|--|--|--:|\n| **program** | a file that is run | 1 |\n",
     "course/real_robot.md": "# A real robot\n",
     "course/TUTOR.md": "# A tutor\n",
 }
@@ -130,5 +130,6 @@ def test_a_folder_without_a_server_has_replays_search_and_links(course, monkeypa
         expect(page.locator(".ros2-replay .ros2-view")).to_be_visible()
         expect(page.locator("math mfrac")).to_have_count(1)
         page.goto(f"{site}/search.html?q=program")
-        expect(page.locator("ul.search a").first).to_have_text("Glossary")
+        expect(page.locator("ul.search a").first).to_have_text("Lesson one")  # which explains it
+        expect(page.locator("ul.search p.context").first).to_contain_text("A program that")
     assert [address for address in elsewhere if address.startswith("http")] == []
