@@ -1,6 +1,7 @@
 """Finds the release's notebooks among the files of a submission, under their own names or others."""
 
-from collections.abc import Collection, Iterator, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from nbformat import NotebookNode
@@ -11,6 +12,9 @@ from grader.marking.submission.plain_cells import PlainNotebook, read_notebook
 from grader.marking.submission.quoting import list_names, quote
 from grader.marking.submission.submitted_files import IGNORED_FILES, WORKSPACE, SubmittedFiles
 from grader.marking.submission.untrusted_folder import FOLDER, FolderEntry
+
+LEFT_BESIDE = ("__pycache__", ".ipynb_checkpoints")  # by Python and JupyterLab
+WRITES = re.compile(r"^%%writefile +(?:-a +)?(?:\./)?([^\s/]+)[ \t]*$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,8 @@ def read_notebooks(submitted: SubmittedFiles, release: Release) -> SubmittedNote
         raise Unusable(" ".join(found.missing.values()))
     if isinstance(submitted.workspace, str):
         found.repairs.append(f"No file of your workspace was used. {submitted.workspace}")
-    taken = {*used.values(), WORKSPACE} if submitted.workspace else set(used.values())
+    taken = {*used.values(), *_written(found.notebooks.values()), *LEFT_BESIDE}
+    taken |= {WORKSPACE} if submitted.workspace else set()
     if left := list(_unused(submitted.entries, taken, release)):
         found.repairs.append(f"Handed in alongside the notebook and not used: {list_names(left)}.")
     return found
@@ -83,6 +88,13 @@ def _has_cells(submitted: SubmittedFiles, path: str, notebook: NotebookNode) -> 
         return False
     names = {cell.metadata.nbgrader.grade_id for cell in notebook.cells if "nbgrader" in cell.metadata}
     return 2 * len(names & {name for cell in cells for name in (cell.name, cell.id)}) >= len(names)
+
+
+def _written(notebooks: Iterable[PlainNotebook]) -> Iterator[str]:
+    """The files that cells of the notebooks write: they lie beside a notebook that was run."""
+    for notebook in notebooks:
+        for cell in notebook.cells:
+            yield from WRITES.findall(cell.text)
 
 
 def _unused(entries: Sequence[FolderEntry], used: Collection[str], release: Release) -> Iterator[str]:

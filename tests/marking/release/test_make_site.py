@@ -23,9 +23,15 @@ MAP = """
 from IPython.display import HTML
 HTML('<a href="../course/01_nodes/lesson.ipynb">Lesson 1</a> <a href="https://a.org/b.ipynb">b</a>')
 """
-LESSON = "# Lesson one\n\n$$\\frac{1}{2}$$\n\n[words](../glossary.md)\n\nA program that **waits**.\n\n**Time:** about 90 minutes."
+LESSON = """# Lesson one
+
+$$\\frac{1}{2}$$
+
+A program that **waits** for [words](../glossary.md).
+
+**Time:** about 90 minutes."""
 TEXTS = {
-    "course/glossary.md": "# Glossary\n\n| a | b | |\n|--|--|--:|\n| **program** | a file that is run | 1 |\n",
+    "course/glossary.md": "# Glossary\n\n| a | b | |\n|--|--|--:|\n| **program** | a file | 1 |\n",
     "course/real_robot.md": "# A real robot\n",
     "course/TUTOR.md": "# A tutor\n",
 }

@@ -203,10 +203,21 @@ def test_other_files_are_not_used_and_named_once(folder):
     (folder / ".ipynb_checkpoints" / "nodes-checkpoint.ipynb").write_bytes(OTHERS)
     rebuilt = rebuilt_folder(folder)
     assert rebuilt.repairs == [
-        "Handed in alongside the notebook and not used: `.hidden`, `.ipynb_checkpoints/`, `data.csv`, "
-        "`matplotlib.py`, `sitecustomize.py` and 2 more."
+        "Handed in alongside the notebook and not used: `.hidden`, `data.csv`, `matplotlib.py`, "
+        "`sitecustomize.py`, `z1` and 1 more."
     ]
     assert same(rebuilt.notebooks["nodes"].notebook)
+
+
+def test_what_a_cell_writes_and_what_tools_leave_is_not_mentioned(folder):
+    writes = own("%%writefile my_weather.py\nx = 1")
+    (folder / "nodes.ipynb").write_bytes(data({**solved(), "cells": [*solved()["cells"], writes]}))
+    for name in ("my_weather.py", "other.py"):
+        (folder / name).write_text("x = 1")
+    (folder / "__pycache__").mkdir()
+    repairs = rebuilt_folder(folder).repairs
+    assert "Handed in alongside the notebook and not used: `other.py`." in repairs
+    assert "my_weather" not in " ".join(repairs)
 
 
 def test_names_of_files_cannot_break_a_sentence(folder):

@@ -26,13 +26,7 @@ def test_an_honest_submission_is_run_as_it_is_and_nothing_is_reported(assignment
 def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assignment):
     release = load_release(ROOT / "exercises" / assignment)
     rebuilt = rebuilt_folder(ROOT / "solutions" / assignment, release)
-    beside = ["answers.md"]
-    # A cell of 01_nodes writes it, so it lies there where the solution was run.
-    if (ROOT / "solutions" / assignment / "my_weather.py").exists():
-        beside.append("my_weather.py")
-    message = (
-        f"Handed in alongside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
-    )
+    message = "Handed in alongside the notebook and not used: `answers.md`."
     assert (rebuilt.repairs, rebuilt.flags) == ([message], [])
     for name, starter in release.notebooks.items():
         solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
