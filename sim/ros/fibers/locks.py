@@ -88,6 +88,10 @@ class FiberRLock:
     def __exit__(self, *exception: object) -> None:
         self.release()
 
+    def _at_fork_reinit(self) -> None:  # in a child process, for logging and threading: nothing there holds it
+        self._owner, self._count = None, 0
+        self._lock._at_fork_reinit()
+
     # What threading.Condition needs of its lock:
 
     def _is_owned(self) -> bool:

@@ -364,3 +364,17 @@ def test_in_a_run_a_thread_of_the_users_stays_in_real_time():
     stop.set()
     thread.join(PATIENCE)
     assert all(0.01 <= duration < PATIENCE for duration in seen)
+
+
+def test_a_students_locks_are_free_in_a_child_process(capfd):
+    """As those of logging's handlers, which Python makes anew after a fork."""
+    child = []
+
+    def main():
+        lock = threading.RLock()
+        lock.acquire()
+        lock._at_fork_reinit()
+        child.append(lock.acquire(blocking=False))
+
+    assert run(main, seconds=1, quiet=True).errors == []
+    assert child == [True] and capfd.readouterr().err == ""
