@@ -88,7 +88,7 @@ class FiberRLock:
     def __exit__(self, *exception: object) -> None:
         self.release()
 
-    def _at_fork_reinit(self) -> None:  # in a child process, for logging and threading: nothing there holds it
+    def _at_fork_reinit(self) -> None:  # in a child process, where nothing holds it
         self._owner, self._count = None, 0
         self._lock._at_fork_reinit()
 
