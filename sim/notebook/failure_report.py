@@ -18,6 +18,7 @@ from sim.notebook.kernel import shell
 GROUP = "sim.failure_explainers"
 # Dark red on light red: 8 to 1, in a light and in a dark page.
 STYLE = "color: #8c1d18; background-color: #fdecea; padding: 6px 10px; margin: 4px 0"
+_CODE = re.compile("`([^`]+)`")
 _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 _reported: tuple[int, weakref.ref[Recording]] | None = None  # the execution count, and what was shown in it
 
@@ -63,7 +64,7 @@ def failure_html(lines: list[str]) -> str:
     """The lines in red, legible without a style sheet."""
     if not lines:
         return ""
-    first, *more = (html.escape(line) for line in lines)
+    first, *more = (_CODE.sub(r"<code>\1</code>", html.escape(line)) for line in lines)
     text = "<br>".join([f"<strong>{first}</strong>", *more])
     return f'<div class="ros2-failure" style="{STYLE}">{text}</div>'
 
