@@ -79,11 +79,11 @@ def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]
 
 def _wrapped(diagram: GraphDiagram, width: float, failure: str) -> list[tuple[str, dict[str, str]]]:
     """The lines below the graph, each with its text properties."""
-    red, gray, most = {"color": WARNING, "fontweight": "bold"}, {"color": SOLID}, int(width * CHARACTERS)
-    lines = []
+    red, gray, most = {"color": FAILURE}, {"color": SOLID}, int(width * CHARACTERS)
+    lines, drawn = [], {arrow.gap for arrow in diagram.arrows.values()}
     for number, reason in enumerate(diagram.reasons, 1):
-        wrapped = textwrap.wrap(f"{number}  {reason}", most, subsequent_indent="    ")
-        lines += [(line, red) for line in wrapped]
+        text = f"{number}  {reason}" if number in drawn else reason
+        lines += [(line, red) for line in textwrap.wrap(text, most, subsequent_indent="    ")]
     lines += [(line, gray) for line in textwrap.wrap(diagram.omitted, most)]
     return lines + [(line, {"color": FAILURE}) for line in textwrap.wrap(failure, most)]
 

@@ -53,6 +53,8 @@ def test_two_trees_are_reported():
     figure = drawn(broadcaster(("map", "dock"), ("sea", "island")))
     reason = "There are 2 trees, and no path connects map and sea."
     assert figure.description.endswith(f"Missing:\n1. {reason}")
+    shown = [(text.get_text(), text.get_fontweight()) for text in figure.axes[0].texts]
+    assert (reason, "normal") in shown  # without a number, which no arrow has
 
 
 def test_a_frame_with_two_parents_is_red():
