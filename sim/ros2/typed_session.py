@@ -211,7 +211,10 @@ class TypedSession:
         def ros2() -> Process | None:  # the program's name
             started = execute_words(words)
             if isinstance(started, Process):
-                return replace(started, remappings=() if words[1] == "launch" else spec.remappings)
+                rules = () if words[1] == "launch" else spec.remappings
+                words_of_rules = [word for old, new in rules for word in ("-r", f"{old}:={new}")]
+                before = ["--ros-args", *words_of_rules, "--"] if rules else []  # the first rule counts
+                return replace(started, arguments=[*before, *started.arguments])
             if started:
                 _report_failure(line)
             return None
