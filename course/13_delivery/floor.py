@@ -1,4 +1,4 @@
-"""What the three programs compute with: poses, what the map doesn't explain, ways. It needs no node."""
+"""Computes poses, paths and points that the map doesn't explain, for the three programs. It needs no node."""
 
 import heapq
 import math
@@ -7,23 +7,23 @@ import numpy as np
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # also for latecomers
-CELL = 0.1  # m; the width of a cell in which ways are searched
-CLEAR = 0.2  # m from the middle of the robot to what is solid
+KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # late joiners receive it, too
+CELL = 0.1  # m; the width of a cell in which paths are searched
+CLEAR = 0.2  # m from the middle of the robot to obstacles
 
 
 def seconds(stamp):
-    """A stamp in a message, in s."""
+    """Return a message's stamp in s."""
     return stamp.sec + stamp.nanosec / 1e9
 
 
 def flat(pose):
-    """Where a Pose is: x (m), y (m) and yaw (rad)."""
+    """Return a Pose as x (m), y (m) and yaw (rad)."""
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def posed(x, y, yaw=0.0):
-    """A Pose on the floor."""
+    """Return a Pose on the floor."""
     pose = Pose()
     pose.position.x, pose.position.y = float(x), float(y)
     pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
@@ -31,21 +31,21 @@ def posed(x, y, yaw=0.0):
 
 
 def stamped(stamp, x, y, yaw=0.0):
-    """A PoseStamped in map."""
+    """Return a PoseStamped in map."""
     message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
 
 def listed(stamp, points):
-    """A PoseArray in map, of points (x, y)."""
+    """Return a PoseArray in map from points (x, y)."""
     message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
 
 def points_of(scan, pose):
-    """The points (x, y) in map that the rays met, as rows; pose: x, y and yaw of the lidar."""
+    """Return the points (x, y) in map that the rays hit, as rows; pose: x, y and yaw of the lidar."""
     ranges = np.array(scan.ranges)
     rays = np.flatnonzero(np.isfinite(ranges))
     angles = pose[2] + scan.angle_min + rays * scan.angle_increment
@@ -53,12 +53,12 @@ def points_of(scan, pose):
 
 
 def far_from(points, others, reach):
-    """Those points that are farther than `reach` (m) from all the others."""
+    """Return the points that are farther than `reach` (m) from all the others."""
     return [point for point in points if all(math.dist(point, other) > reach for other in others)]
 
 
 def thinned(points, gap=0.1):
-    """Some of the points, so that each of them is near (m) to one that is kept."""
+    """Return some of the points, such that each is near (m) to one of these."""
     kept = []
     for point in points:
         kept += far_from([point], kept, gap)
@@ -66,7 +66,7 @@ def thinned(points, gap=0.1):
 
 
 def steer(pose, point, speed=0.5):
-    """The speed (m/s) and the turn (rad/s) that lead to a point."""
+    """Return the speed (m/s) and the turning rate (rad/s) that lead to a point."""
     distance = math.dist(pose[:2], point)
     off = math.remainder(math.atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2], math.tau)
     forward = min(speed, 2 * distance) * math.cos(off) ** 3 if abs(off) < 0.8 else 0.0
@@ -74,7 +74,7 @@ def steer(pose, point, speed=0.5):
 
 
 class Floor:
-    """The map of the warehouse: an OccupancyGrid, as one can ask it."""
+    """The map of the warehouse, made from an OccupancyGrid."""
 
     def __init__(self, grid):
         self.info = grid.info
@@ -85,7 +85,7 @@ class Floor:
         self.closed = self.near(CLEAR - CELL / 2)[::step, ::step]
 
     def near(self, reach):
-        """The cells of the map that are at most `reach` (m), along each axis, from something solid."""
+        """Return the cells of the map that are at most `reach` (m), along each axis, from an obstacle."""
         found = self.solid.copy()
         for _ in range(round(reach / self.info.resolution)):
             found[1:] |= found[:-1].copy()
@@ -95,13 +95,13 @@ class Floor:
         return found
 
     def strange(self, points):
-        """The points (rows) that lie more than 0.15 m from everything on the map."""
+        """Return the points (rows) that are more than 0.15 m from everything on the map."""
         column = ((points[:, 0] - self.left) / self.info.resolution).astype(int).clip(0, self.info.width - 1)
         row = ((points[:, 1] - self.bottom) / self.info.resolution).astype(int).clip(0, self.info.height - 1)
         return thinned(points[~self.known[row, column]].tolist())
 
     def way(self, start, goal, obstacles=()):
-        """Points from start to goal, clear of the map and the obstacles, by A*; [] where there is no way."""
+        """Return a path from start to goal, clear of the map and the obstacles; [] if there is none."""
         closed = self.closed.copy()
         for point in obstacles:
             column, row = self.cell(point)
@@ -116,7 +116,7 @@ class Floor:
         return [*middle[::-1], tuple(goal)] if last in came else []
 
     def cell(self, point):
-        """The cell (column, row) of a point."""
+        """Return the cell (column, row) of a point."""
         return int((point[0] - self.left) / CELL), int((point[1] - self.bottom) / CELL)
 
 

@@ -1,4 +1,4 @@
-"""The three programs of the delivery robot, as the lesson builds them, each with a main for a launch file."""
+"""The three programs of the delivery robot, as the lesson builds them, with a main for a launch file."""
 
 import argparse
 import math
@@ -19,7 +19,7 @@ from warehouse_msgs.msg import Order
 
 
 class Perception(Node):
-    """Publishes where the robot is, what is near it, and where people walk or walked a moment ago."""
+    """Publishes the robot's pose, the obstacles, and the points where people are walking or just walked."""
 
     def __init__(self):
         super().__init__("perception")
@@ -33,24 +33,24 @@ class Perception(Node):
         self.obstacles_pub = self.create_publisher(PoseArray, "obstacles", 10)
 
     def on_map(self, grid):
-        """Keep the map."""
+        """Store the map."""
         self.floor = Floor(grid)
 
     def on_scan(self, scan):
-        """Every other scan: find the robot, and look for what the map doesn't show."""
+        """For every other scan, locate the robot and find the points that aren't on the map."""
         self.scans += 1
         if self.floor is None or self.scans % 2:
             return
         try:
             there = self.buffer.lookup_transform("map", scan.header.frame_id, scan.header.stamp).transform
         except TransformException:
-            return  # not known yet; the next scan comes soon
+            return  # not known yet; the next scan arrives soon
         pose = there.translation.x, there.translation.y, 2 * math.atan2(there.rotation.z, there.rotation.w)
         strange = self.floor.strange(points_of(scan, pose))
         self.tell(scan.header.stamp, pose, strange)
 
     def tell(self, stamp, pose, strange):
-        """Publish what was seen, with the time at which it was seen."""
+        """Publish the points and the pose, with the time of the scan."""
         now = seconds(stamp)
         before = [points for when, points in self.seen if now - when > 0.4]
         self.seen = [*((when, points) for when, points in self.seen if now - when < 1.0), (now, strange)]
@@ -64,7 +64,7 @@ class Perception(Node):
 
 
 def choose(state, share, orders, now):
-    """What to do next: "deliver", "charge", "fetch" or "rest", and the order that is meant, or None."""
+    """Return the next state ("deliver", "charge", "fetch" or "rest") and its order, or None."""
     for order in orders:
         if order.status == Order.PICKED_UP:
             return "deliver", order
@@ -78,7 +78,7 @@ def choose(state, share, orders, now):
 
 
 class Decision(Node):
-    """Chooses twice a second what to do; says where that is on /goal_pose."""
+    """Chooses the next state twice a second and publishes its place on /goal_pose."""
 
     def __init__(self):
         super().__init__("decision")
@@ -91,19 +91,19 @@ class Decision(Node):
         self.create_timer(0.5, self.decide)
 
     def on_order(self, order):
-        """An order, or what has become of it."""
+        """Store a new order, or its new status."""
         self.orders[order.id] = order
 
     def on_battery(self, battery):
-        """How full the battery is, from 0 to 1."""
+        """Store the battery's level, from 0 to 1."""
         self.share = battery.percentage
 
     def on_dock(self, dock):
-        """Where the charger is."""
+        """Store the pose of the charger."""
         self.dock = dock
 
     def decide(self):
-        """Choose, and say so."""
+        """Choose the next state; publish it and its goal."""
         if self.dock is None:
             return
         now = seconds(self.get_clock().now().to_msg())
@@ -117,7 +117,7 @@ class Decision(Node):
 
 
 class Control(Node):
-    """Drives to /goal_pose, and stops while a person walks nearby or while it knows too little."""
+    """Drives to /goal_pose; stops while a person is walking nearby or its data are too old."""
 
     def __init__(self):
         super().__init__("control")
@@ -133,39 +133,39 @@ class Control(Node):
         self.create_timer(1.0, self.plan)
 
     def on_map(self, grid):
-        """Keep the map."""
+        """Store the map."""
         self.floor = Floor(grid)
 
     def on_people(self, people):
-        """Where people walk."""
+        """Store the points where people are walking."""
         self.people = [flat(pose)[:2] for pose in people.poses]
 
     def on_obstacles(self, obstacles):
-        """What stands where the map has nothing."""
+        """Store the obstacles that aren't on the map."""
         self.obstacles = [flat(pose)[:2] for pose in obstacles.poses]
 
     def on_goal(self, goal):
-        """Where to go; a new place needs a new plan."""
+        """Store the goal; a new one needs a new plan."""
         place = flat(goal.pose)[:2]
         if place != self.goal:
             self.goal, self.way = place, []
 
     def on_pose(self, message):
-        """Where the robot is, and when it was seen there."""
+        """Store the robot's pose and the time of its scan."""
         self.pose, self.received = flat(message.pose), seconds(message.header.stamp)
 
     def plan(self):
-        """Once a second: a new way, past what stands there now."""
+        """Find a new path around the current obstacles, once a second."""
         if None not in (self.floor, self.goal, self.pose):
             self.way = self.floor.way(self.pose[:2], self.goal, self.obstacles)
 
     def is_safe(self):
-        """Whether what is known is recent, and no person is nearby."""
+        """Return whether the data are recent and no person is nearby."""
         age = seconds(self.get_clock().now().to_msg()) - self.received
         return age < 0.5 and all(math.dist(self.pose[:2], place) > 1.5 for place in self.people)
 
     def drive(self):
-        """Ten times a second: a bit further along the way, or stand."""
+        """Drive a bit further along the path, or stop, ten times a second."""
         command = Twist()
         if self.way and self.is_safe():
             while len(self.way) > 1 and math.dist(self.pose[:2], self.way[0]) < 0.25:
@@ -190,7 +190,7 @@ def main(name):
     finally:
         if isinstance(node, Control):
             node.publisher.publish(Twist())
-            time.sleep(0.2)  # so that it gets there
+            time.sleep(0.2)  # so that it arrives
         node.destroy_node()
         rclpy.try_shutdown()
 

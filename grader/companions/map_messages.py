@@ -12,17 +12,17 @@ KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def seconds(stamp: Time) -> float:
-    """A stamp in a message, in s."""
+    """Return a message's stamp in s."""
     return stamp.sec + stamp.nanosec / 1e9
 
 
 def flat(pose: Pose) -> tuple[float, float, float]:
-    """Where a Pose is: x (m), y (m) and yaw (rad)."""
+    """Return a Pose as x (m), y (m) and yaw (rad)."""
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def posed(x: float, y: float, yaw: float = 0.0) -> Pose:
-    """A Pose on the floor."""
+    """Return a Pose on the floor."""
     pose = Pose()
     pose.position.x, pose.position.y = float(x), float(y)
     pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
@@ -30,14 +30,14 @@ def posed(x: float, y: float, yaw: float = 0.0) -> Pose:
 
 
 def stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
-    """A PoseStamped in map."""
+    """Return a PoseStamped in map."""
     message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
 
 def listed(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
-    """A PoseArray in map, of points (x, y)."""
+    """Return a PoseArray in map from points (x, y)."""
     message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message

@@ -19,7 +19,7 @@ CLEAR = 0.2  # m from the middle of the robot to what is solid
 
 
 def points_of(scan: Any, pose: Sequence[float]) -> np.ndarray:
-    """The points (x, y) in map that the rays met, as rows; pose: x, y and yaw of the lidar."""
+    """Return the points (x, y) in map that the rays hit, as rows; pose: x, y and yaw of the lidar."""
     ranges = np.array(scan.ranges)
     rays = np.flatnonzero(np.isfinite(ranges))
     angles = pose[2] + scan.angle_min + rays * scan.angle_increment
@@ -28,12 +28,12 @@ def points_of(scan: Any, pose: Sequence[float]) -> np.ndarray:
 
 def far_from(points: Iterable[Sequence[float]], others: Iterable[Sequence[float]],
              reach: float) -> list[Sequence[float]]:
-    """Those points that are farther than `reach` (m) from all the others."""
+    """Return the points that are farther than `reach` (m) from all the others."""
     return [point for point in points if all(math.dist(point, other) > reach for other in others)]
 
 
 def thinned(points: Iterable[Sequence[float]], gap: float = 0.1) -> list[Sequence[float]]:
-    """Some of the points, so that each of them is near (m) to one that is kept."""
+    """Return some of the points, such that each is near (m) to one of these."""
     kept = []
     for point in points:
         kept += far_from([point], kept, gap)
@@ -41,7 +41,7 @@ def thinned(points: Iterable[Sequence[float]], gap: float = 0.1) -> list[Sequenc
 
 
 def steer(pose: Sequence[float], point: Sequence[float], speed: float = 0.5) -> tuple[float, float]:
-    """The speed (m/s) and the turn (rad/s) that lead to a point."""
+    """Return the speed (m/s) and the turning rate (rad/s) that lead to a point."""
     distance = math.dist(pose[:2], point)
     off = math.remainder(math.atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2], math.tau)
     forward = min(speed, 2 * distance) * math.cos(off) ** 3 if abs(off) < 0.8 else 0.0
@@ -49,7 +49,7 @@ def steer(pose: Sequence[float], point: Sequence[float], speed: float = 0.5) -> 
 
 
 class Floor:
-    """The map of the warehouse: an OccupancyGrid, as one can ask it."""
+    """The map of the warehouse, made from an OccupancyGrid."""
 
     def __init__(self, grid: Any) -> None:
         self.info = grid.info
@@ -60,7 +60,7 @@ class Floor:
         self.closed = self.near(CLEAR - CELL / 2)[::step, ::step]
 
     def near(self, reach: float) -> np.ndarray:
-        """The cells of the map that are at most `reach` (m), along each axis, from something solid."""
+        """Return the cells of the map that are at most `reach` (m), along each axis, from an obstacle."""
         found = self.solid.copy()
         for _ in range(round(reach / self.info.resolution)):
             found[1:] |= found[:-1].copy()
@@ -70,14 +70,14 @@ class Floor:
         return found
 
     def strange(self, points: np.ndarray) -> list[Sequence[float]]:
-        """The points (rows) that lie more than 0.15 m from everything on the map."""
+        """Return the points (rows) that are more than 0.15 m from everything on the map."""
         column = ((points[:, 0] - self.left) / self.info.resolution).astype(int).clip(0, self.info.width - 1)
         row = ((points[:, 1] - self.bottom) / self.info.resolution).astype(int).clip(0, self.info.height - 1)
         return thinned(points[~self.known[row, column]].tolist())
 
     def way(self, start: Sequence[float], goal: Sequence[float],
             obstacles: Iterable[Sequence[float]] = ()) -> list[Point]:
-        """Points from start to goal, clear of the map and the obstacles, by A*; [] where there is no way."""
+        """Return a path from start to goal, clear of the map and the obstacles; [] if there is none."""
         closed = self.closed.copy()
         for point in obstacles:
             column, row = self.cell(point)
@@ -92,7 +92,7 @@ class Floor:
         return [*middle[::-1], tuple(goal)] if last in came else []
 
     def cell(self, point: Sequence[float]) -> Cell:
-        """The cell (column, row) of a point."""
+        """Return the cell (column, row) of a point."""
         return int((point[0] - self.left) / CELL), int((point[1] - self.bottom) / CELL)
 
 
