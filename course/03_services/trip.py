@@ -18,12 +18,12 @@ class TripMeter(Node):
         self.create_service(Trigger, "/trip/reset", self.reset)
 
     def count(self, msg):
-        """Add the way since the last message."""
-        self.meters += abs(msg.twist.twist.linear.x) / 20  # /odom comes 20 times a second
+        """Add the distance since the last message."""
+        self.meters += abs(msg.twist.twist.linear.x) / 20  # /odom arrives 20 times a second
         self.publisher.publish(Float64(data=self.meters))
 
     def reset(self, request, response):
-        """Begin again at 0, and respond with the way until now."""
+        """Restart at 0 and respond with the distance so far."""
         response.success = True
         response.message = f"it was {self.meters:.2f} m"
         self.meters = 0.0
@@ -31,7 +31,7 @@ class TripMeter(Node):
 
 
 class Button(Node):
-    """Asks for a reset every 4 s, and logs the answer."""
+    """Requests a reset every 4 s and logs the answer."""
 
     def __init__(self):
         super().__init__("button")
@@ -39,7 +39,7 @@ class Button(Node):
         self.create_timer(4.0, self.press)
 
     def press(self):
-        """Send a request, if there is a server."""
+        """Send a request if there is a server."""
         if self.client.service_is_ready():
             self.client.call_async(Trigger.Request()).add_done_callback(self.on_response)
 

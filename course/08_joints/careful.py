@@ -1,4 +1,4 @@
-"""The goal of lesson 8a: a program that waits until a joint arrives, and refuses what is beyond limits."""
+"""The goal of lesson 8a: a program that waits for a joint to arrive and refuses positions beyond limits."""
 
 import math
 
@@ -12,7 +12,7 @@ PATIENCE = 4.0  # s
 
 
 class Careful(Node):
-    """Moves a joint to one position after the other."""
+    """Moves a joint from one position to the next."""
 
     def __init__(self):
         super().__init__("careful")
@@ -22,7 +22,7 @@ class Careful(Node):
         self.create_subscription(JointState, "/joint_states", self.watch, 10)
 
     def watch(self, msg):
-        """Go on when the joint has arrived, or when that takes too long."""
+        """Send the next position when the joint has arrived or is taking too long."""
         index = msg.name.index("joint")
         if self.target is None or self.arrived(msg.position[index], msg.velocity[index]):
             self.go_on()
@@ -31,7 +31,7 @@ class Careful(Node):
             self.go_on()
 
     def arrived(self, position, velocity):
-        """Whether the joint is near the target, and stands."""
+        """Return whether the joint is standing still near its target."""
         return abs(position - self.target) < NEAR and abs(velocity) < SLOW
 
     def go_on(self):
@@ -43,5 +43,5 @@ class Careful(Node):
             self.publisher.publish(Float64(data=self.target))
 
     def now(self):
-        """The time in seconds."""
+        """Return the time in seconds."""
         return self.get_clock().now().nanoseconds / 1e9

@@ -7,7 +7,7 @@ from std_srvs.srv import Trigger
 
 
 class Latch(Node):
-    """Stands between /cmd_vel_raw and /cmd_vel; /emergency (Bool) stops it, /reset (Trigger) lets it go."""
+    """Sits between /cmd_vel_raw and /cmd_vel; /emergency (Bool) stops it, /reset (Trigger) releases it."""
 
     def __init__(self):
         super().__init__("latch")
@@ -18,14 +18,14 @@ class Latch(Node):
         self.create_service(Trigger, "/reset", self.reset)
 
     def on_button(self, msg):
-        """A True sets the latch; a False changes nothing."""
+        """Set the latch on True; ignore False."""
         self.stopped = self.stopped or msg.data
 
     def reset(self, request, response):
-        """A person has checked the robot and resets it."""
+        """Release the latch: a person has checked the robot."""
         self.stopped, response.success = False, True
         return response
 
     def drive(self, msg):
-        """Pass a command on, or a stop in its place."""
+        """Pass the command on, or publish a stop instead."""
         self.commands.publish(Twist() if self.stopped else msg)
