@@ -9,7 +9,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class Explorer(Node):
-    """Drives ahead, and turns left where the lidar sees something near."""
+    """Drives ahead and turns left when the lidar sees something near."""
 
     def __init__(self):
         super().__init__("explorer")

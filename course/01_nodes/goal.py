@@ -1,4 +1,4 @@
-"""Two nodes of a robot, for the picture at the start of the lesson. At its end you can read every line."""
+"""Two nodes of a robot, for the picture at the start of the lesson. By its end you can read every line."""
 
 from rclpy.node import Node
 
@@ -12,13 +12,13 @@ class Lamp(Node):
         self.create_timer(0.5, self.toggle)
 
     def toggle(self):
-        """Switch the lamp over."""
+        """Switch the lamp on or off."""
         self.on = not self.on
         self.get_logger().info("on" if self.on else "off")
 
 
 class Motor(Node):
-    """A motor that gets warmer by 5 degrees a second, and says so ever more loudly."""
+    """A motor that gets 5 degrees warmer every second and logs it at ever higher levels."""
 
     def __init__(self):
         super().__init__("motor")

@@ -18,13 +18,13 @@ class Boss(Node):
         self.create_timer(2.0, self.speak)
 
     def speak(self):
-        """Publish the next word, if there is one left."""
+        """Publish the next word if there is one left."""
         if self.words:
             self.publisher.publish(String(data=self.words.pop(0)))
 
 
 class Walker(Node):
-    """Drives as the last word says, and stops 2 m away from its start."""
+    """Drives as the last word says and stops 2 m from its start."""
 
     def __init__(self):
         super().__init__("walker")
@@ -36,7 +36,7 @@ class Walker(Node):
         self.create_timer(0.1, self.drive)
 
     def obey(self, msg):
-        """Take speed and turn from the word."""
+        """Set the speed and the turning rate that the word stands for."""
         self.get_logger().info(msg.data)
         self.speed, self.turn = self.velocities[msg.data]
 
