@@ -27,7 +27,7 @@ class Careful(Node):
         if self.target is None or self.arrived(msg.position[index], msg.velocity[index]):
             self.go_on()
         elif self.now() - self.since > PATIENCE:
-            self.get_logger().error(f"{self.target} rad isn't reached in {PATIENCE} s: I go on")
+            self.get_logger().error(f"{self.target} rad not reached in {PATIENCE} s: going on")
             self.go_on()
 
     def arrived(self, position, velocity):
