@@ -74,6 +74,7 @@ def close_other_descriptors(wire: socket.socket, answer: int, stderr: IO[bytes])
 def confine(confinement: Confinement, home: str) -> None:
     """Apply the limits to this process, drop its capabilities and filter its system calls."""
     linux.die_with_parent(signal.SIGKILL)
+    linux.run_like_others()
     os.setsid()  # else os.kill(0, ...) would reach the fork server and all confined processes
     os.chdir(home)
     os.umask(0o077)

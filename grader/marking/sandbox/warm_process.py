@@ -65,6 +65,7 @@ class WarmProcess:
             raise bubblewrap.forbidden(report["forbidden"])
         if "failed" in report:
             raise SandboxFailed(f"The sandbox could not import what it needs: {report['failed']}")
+        linux.run_first(self._pidfd)
 
     def start(self, wire: socket.socket) -> ConfinedProcess:
         """Return a new confined process that has `wire`. Raises SandboxFailed."""

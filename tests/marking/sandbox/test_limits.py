@@ -1,15 +1,17 @@
 """Bombs: what a confined process does to use everything up, and what it gets."""
+import contextlib
 import os
 import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from grader.marking.sandbox import ResourceLimits, supervisor
-from tests.marking.sandbox.commanded import Commanded, sandbox, state
+from tests.marking.sandbox.commanded import Commanded, fork_server, sandbox, state
 from tests.patience import until
 
 TICK = 1 / os.sysconf("SC_CLK_TCK")  # s, to which Linux tells how long a process has computed
@@ -186,6 +188,24 @@ def test_a_thread_bomb_is_stopped(tight):
 
 def test_a_fork_bomb_makes_no_process(commanded):
     assert commanded.ask(FORKS) == 1000
+
+
+@pytest.mark.skipif(bool(os.getuid()), reason="Linux itself counts the processes of other users")
+def test_a_supervisor_runs_before_what_it_watches(make_commanded):
+    with contextlib.closing(sandbox()) as box:
+        commanded = make_commanded(box)
+        own = commanded.ask("import os; answer = os.sched_getscheduler(0)")
+        server = fork_server(box)
+        supervisors = Path(f"/proc/{server}/task/{server}/children").read_text().split()
+        policies = [os.sched_getscheduler(int(pid)) for pid in supervisors]
+        assert (own, policies[-1]) == (os.SCHED_OTHER, os.SCHED_RR)  # that of the trial may still be ending
+
+
+def test_a_fork_bomb_of_programs_is_stopped(tight):
+    commanded = tight(programs=True, threads=50)
+    commanded.tell("import os\nwhile True: os.fork()")
+    ending = commanded.ending()
+    assert ending.kind in ("threads", "memory"), ending
 
 
 def test_computing_without_end_is_stopped(tight):
