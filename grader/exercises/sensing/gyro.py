@@ -150,7 +150,8 @@ def _scaled(run: Recording, headings: Headings) -> Headings:
     for whole in (values, np.unwrap(values, period=360.0), np.unwrap(values, period=math.tau)):
         (factor, drift, start), *_ = np.linalg.lstsq(parts, whole, rcond=None)
         off = np.quantile(np.abs(whole - parts @ (factor, drift, start)), MOST)
-        if abs(factor) > LEAST and max(abs(drift) / SLOW, off / ALONG) < abs(factor):
+        size = abs(factor)
+        if LEAST < size < math.inf and abs(drift) < SLOW * size and off < ALONG * size:
             return list(zip(stamps.tolist(), (whole / factor).tolist(), strict=True))
     return []
 
