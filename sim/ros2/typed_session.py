@@ -41,8 +41,7 @@ TYPING, LONG = 1.0, 10.0  # s: for each line; until a wait is reported
 class Terminal:
     """A terminal: its folder and variables, and the program that was started there last, by which line.
 
-    lasts: it is one that a person leaves running. robot: it is `python -m sim`, which needs no program: the
-    run has its robot.
+    lasts: it is one that a person leaves running. robot: it is `python -m sim`: the run has its robot.
     """
 
     folder: str = ""
