@@ -115,7 +115,7 @@ def ticks(recording):
 
 def test_a_thread_that_crashes_is_reported_and_costs_nothing_that_goes_on():
     error, ticking = judge([ticks], run(errors.in_thread, seconds=3, quiet=True))
-    assert (error.saw, error.status) == ("KeyError: 'in thread' (in thread work, line 113, at 0 s)", "failed")
+    assert (error.saw, error.status) == ("KeyError: 'in thread' (in thread work, line 114, at 0 s)", "failed")
     assert (ticking.status, ticking.earned) == ("passed", 1.0)
 
 
