@@ -214,7 +214,7 @@ def test_come_every_names_the_moment_at_which_lines_begin_too_late_or_end_too_ea
 def test_come_every_names_a_callback_that_waits():
     waits = [CallbackRun(stamp, 2.0, "/heart", "Heart.beat", "timer") for stamp in (1.0, 3.0)]
     miss = pace(beats(1.0, 3.0, 5.0, timers=[1.0], callbacks=waits))
-    assert miss.hint.startswith("The timer of /heart fired twice in 5 s; 5 were due.")
+    assert miss.hint.startswith("The timer of /heart fired 2 times in 5 s; 5 were due.")
 
 
 def test_come_every_gives_the_lines_to_later_checks_where_they_earn_something_themselves():
