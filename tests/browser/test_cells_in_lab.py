@@ -39,9 +39,9 @@ def greeter(request, students_folder, open_lab):
 
 
 def says(lab, index: int) -> str:
-    """Run a cell, and return the text of its last output."""
+    """Run a cell, and return the text of its first output."""
     lab.run_cell(index)
-    output = lab.outputs(index)[-1]  # before it may be a picture
+    output = lab.outputs(index)[0]  # behind it may be pictures
     if output["output_type"] == "error":
         return "\n".join(output["traceback"])
     data = output["data"]
