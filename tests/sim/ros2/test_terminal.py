@@ -320,7 +320,7 @@ def interrupted_at(moment, where, words, domain, end=""):
 IMPORTED = ["rclpy", "sim.ros2.verbs.echo", "numpy"]
 CALLED = [
     "sim.ros2.live:rclpy.create_node",
-    "sim.ros2.live:LiveSystem._wait_for_graph",
+    "sim.ros2.live:LiveSystem.wait_for_graph",
     "sim.ros2.verbs.echo:_format",
     "sim.ros2.live:LiveSystem.__exit__",
 ]
