@@ -195,6 +195,8 @@ def test_a_supervisor_runs_before_what_it_watches(make_commanded):
     with contextlib.closing(sandbox()) as box:
         commanded = make_commanded(box)
         own = commanded.ask("import os; answer = os.sched_getscheduler(0)")
+        raised = commanded.ask("os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))")
+        assert raised == "PermissionError: [Errno 1] Operation not permitted"
         server = fork_server(box)
         supervisors = Path(f"/proc/{server}/task/{server}/children").read_text().split()
         policies = [os.sched_getscheduler(int(pid)) for pid in supervisors]
