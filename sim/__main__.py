@@ -22,7 +22,7 @@ USAGE_ERROR = 2  # exit status, as argparse's
 CONNECT_HELP = """
 In another terminal:
   export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
-  python my_node.py        # or, where ROS 2 is installed: ros2 topic list
+  python my_node.py        # or ros2 topic list, as in JupyterLab's terminals
 
 Ctrl-C ends it."""
 

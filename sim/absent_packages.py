@@ -26,7 +26,7 @@ def explain(name: str) -> str:
 
 
 def explain_package(name: str) -> str:
-    """As `explain`, about a name that was looked up as a ROS package, which pip does not install."""
+    """Work like `explain`, about a name that was looked up as a ROS package, which pip does not install."""
     project = table()["pypi"].get(name)
     if project is None:
         return explain(name)

@@ -9,4 +9,7 @@ from pathlib import Path
 
 COURSE = Path(__file__).parents[1]
 _installed = importlib.util.find_spec("launch_process_starters")  # None where only `sim` is used
-ROS_PACKAGES = Path(_installed.origin).parents[1] if _installed else COURSE / "ros_packages"
+_found = _installed and _installed.origin
+ROS_PACKAGES = Path(_found).parents[1] if _found else COURSE / "ros_packages"
+FILES = ROS_PACKAGES.parent
+"""The folder of lessons, exercises, LICENSE and so on: in a clone the course, of a wheel ros2_course/."""

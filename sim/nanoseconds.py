@@ -18,4 +18,5 @@ def nanoseconds(seconds: float) -> Nanoseconds:
 
 def in_seconds(duration: Any) -> float:
     """A builtin_interfaces/Duration in seconds."""
-    return duration.sec + duration.nanosec / SECOND
+    seconds: float = duration.sec + duration.nanosec / SECOND
+    return seconds

@@ -27,7 +27,7 @@ _FORM = re.compile(
 
 
 class Draw(NamedTuple):
-    """What an order draws for one choice. chance and value are in [0, 1) and independent."""
+    """An order's draw for one choice. chance and value are in [0, 1) and independent."""
 
     id: str
     chance: float
@@ -99,35 +99,35 @@ class Order:
         return self.key.encode()[:64]
 
     def draw(self, *name: object) -> Draw:
-        """What is drawn for the choice of this name."""
+        """Return what is drawn for the choice of this name."""
         text = "\0".join(map(str, name)).encode(errors="surrogateescape")
         drawn = blake2b(text, digest_size=11, key=self._hash_key).digest()
         chance, value = int.from_bytes(drawn[3:7]), int.from_bytes(drawn[7:])
         return Draw(drawn[:3].hex(), chance / 2**32, value / 2**32)
 
     def start(self, program: int) -> tuple[Draw, Nanoseconds]:
-        """How much later than usual the student's program of this number starts, and what is drawn for it."""
+        """Return how much later than usual the student's program of this number starts, and its draw."""
         draw = self.draw("start", program)
         late = self.departs(draw, STARTS_LATE)
         return draw, int(draw.value * nanoseconds(self.late)) if late else 0
 
     @property
     def all_started(self) -> Nanoseconds:
-        """When all of the student's programs that start with the run have started."""
+        """Return when all of the student's programs that start with the run have started."""
         return max(self.start(program)[1] for program in range(MOST_PROGRAMS))
 
     def delay(self, now: Nanoseconds, sender: str, topic: str, receiver: str) -> tuple[Draw, Nanoseconds]:
-        """How late the messages that a node sends now on a topic reach another; and what is drawn for it."""
+        """Return how late a node's messages on a topic reach another node now; and what is drawn for it."""
         draw = self.draw("message", now, sender, topic, receiver)
         late = self.departs(draw, self.intensity / 2)
         return draw, 1 + int(draw.value * nanoseconds(self.spread)) if late else 0
 
     def kept_delay(self, sender: str, topic: str, receiver: str) -> tuple[Draw, Nanoseconds]:
-        """How late a new subscription gets what a latched topic has kept; and what is drawn for it."""
+        """Return how late a new subscription gets what a latched topic has kept; and what is drawn for it."""
         draw = self.draw("kept", sender, topic, receiver)
         late = self.departs(draw, KEPT_LATE)
         return draw, 1 + int(draw.value * nanoseconds(LATEST_KEPT)) if late else 0
 
     def departs(self, draw: Draw, probability: float) -> bool:
-        """Whether the choice of this draw departs from the usual one, as it does with this probability."""
+        """Return whether this draw's choice departs from the usual one, as it does with this probability."""
         return draw.chance < probability if self.only is None else draw.id in self.only

@@ -39,8 +39,8 @@ def play(
     """
     raise_if_outdated(nodes)
     pace = Pace(speed)
-    more = {"caller": "play", "network": network, "order": order}
-    player = Player(Session(nodes, world, seconds, seed, until, quiet, **more), pace)
+    common = nodes, world, seconds, seed, until, quiet
+    player = Player(Session(*common, caller="play", network=network, order=order), pace)
     if in_notebook():
         from sim.view.live_view import (
             LiveView,  # imported here because it is slow, and scripts don't need Jupyter
@@ -56,7 +56,7 @@ def play(
 
 
 def _inputs(nodes: Sequence[Any]) -> list[str]:
-    """What nodes read from the live picture: "keys" if there is a Teleop, "points" if there is a Pointer."""
+    """Return what nodes read from the live picture: "keys" for a Teleop, "points" for a Pointer."""
     targets = [getattr(node, "target", node) for node in nodes]
     classes = [target for target in targets if isinstance(target, type)]
     kinds = {"keys": Teleop, "points": Pointer}

@@ -4,6 +4,10 @@ import os
 import sys
 import tempfile
 import warnings
+from pathlib import Path
+from typing import Any
+
+from sim.ros_libraries import load_libraries, site_packages
 
 PINNED = {
     # Only OFF keeps two processes with the same topics from receiving each other's messages.
@@ -35,15 +39,28 @@ def prepare() -> None:
         os.environ.pop(name, None)
     # rclpy.init() fails if it can't write its log files.
     os.environ.setdefault("ROS_LOG_DIR", os.path.join(tempfile.gettempdir(), f"ros-log-{os.getuid()}"))
-    # The prefix under which pip installed shared files of ROS packages, such as message definitions.
-    os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
+    os.environ.setdefault("AMENT_PREFIX_PATH", _prefix())
+    load_libraries()
+    # A process that was started before a wheel was installed has not read its ros2_course.pth.
+    beside = str(Path(__file__).parents[1] / "ros2_course" / "ros_packages" / "python")
+    if beside not in sys.path and os.path.isdir(beside):
+        sys.path.append(beside)
     # So that a cell's `!` finds colcon, ros2 and python3, and so do their child processes.
     commands, path = os.path.join(sys.prefix, "bin"), os.environ.get("PATH", os.defpath)
     if commands not in path.split(os.pathsep):
         os.environ["PATH"] = f"{commands}{os.pathsep}{path}"
+    module: Any
     for module in list(sys.modules.values()):  # message modules read the variable when they are imported
         if getattr(module, "ros_python_check_fields", None) is not None:
             module.ros_python_check_fields = "1"
+
+
+def _prefix() -> str:
+    """The prefix under which pip installed shared files of ROS packages, such as message definitions."""
+    # PREFIX/lib/python3.12/site-packages: a system's pip may have another prefix than its Python. Nothing
+    # is imported for it: during an import, Ctrl-C ends in a traceback.
+    site = site_packages()
+    return str(site.parents[2]) if site else sys.prefix
 
 
 def open_to_this_machine(domain: int) -> None:

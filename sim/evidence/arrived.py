@@ -45,7 +45,7 @@ def _same_host(run: RunData, message: Message, ends: Sequence[Endpoint]) -> list
 def _kept_at(
     run: RunData, message: Message, ends: Sequence[Endpoint], order: Order, begin: Seconds
 ) -> Nanoseconds:
-    """When the last of the nodes under test has what this message's sender kept on its topic."""
+    """Return when the last of the nodes under test has what this message's sender kept on its topic."""
     delays = [
         order.kept_delay(message.sender, message.topic, end.node)[1] for end in _same_host(run, message, ends)
     ]

@@ -34,7 +34,7 @@ class Missing(NamedTuple):
 
     @property
     def idle(self) -> bool:
-        """Whether a node of the course, such as the robot, merely receives nothing: that is no mistake."""
+        """Return whether a node of the course, such as the robot, merely receives nothing: no mistake."""
         return self.given is None and self.wanted.from_course
 
 
@@ -79,7 +79,7 @@ def _once(ends: list[Endpoint]) -> list[Endpoint]:
 
 
 def _misfit(given: Endpoint, wanted: Endpoint) -> str:
-    """Why two ends of one name don't connect, or nothing."""
+    """Return why two ends of one name don't connect, or nothing."""
     if given.type != wanted.type:
         return (
             f"{given.name} has type {given.type} in {given.node} and {wanted.type} in {wanted.node}: nothing"

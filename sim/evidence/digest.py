@@ -51,7 +51,7 @@ def _text_of(row: Any) -> str:
 
 
 def _evidence(recording: RunData) -> dict[str, Any]:
-    of_network = {}
+    of_network: dict[str, Any] = {}
     if recording.network is not None:
         of_network |= {"network": recording.network.to_data(), "hosts": recording.hosts}
         of_network["crossings"] = [asdict(crossing) for crossing in recording.crossings]

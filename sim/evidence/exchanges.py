@@ -25,7 +25,7 @@ CANCEL_REQUESTED, CANCEL_REJECTED = "cancel requested", "cancel rejected"
 
 
 def is_node_service(service: str) -> bool:
-    """Whether this is the full name of a service that every node has, e.g. "/talker/get_parameters"."""
+    """Return whether this full name is that of a service every node has, e.g. "/talker/get_parameters"."""
     return service.rsplit("/", 1)[-1] in NODE_SERVICES
 
 
@@ -102,16 +102,16 @@ class Goal:
 
     @property
     def over(self) -> bool:
-        """Whether the goal has come to an end, or was rejected."""
+        """Return whether the goal has come to an end, or was rejected."""
         return self.status == REJECTED or self.status in ENDINGS
 
     @property
     def ended(self) -> Seconds | None:
-        """When the goal came to its end, or was rejected; None while it hasn't."""
+        """Return when the goal came to its end, or was rejected; None while it hasn't."""
         return self.at(self.status) if self.over else None
 
     def at(self, word: str) -> Seconds | None:
-        """When the first event of this word came, e.g. "executing"; None if it never did."""
+        """Return when the first event of this word came, e.g. "executing"; None if it never did."""
         return next((stamp for stamp, event in self.events if event == word), None)
 
 

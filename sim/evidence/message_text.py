@@ -4,12 +4,25 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Protocol
 
 MAX_ITEMS = 6  # shown of each list
 MAX_LINES = 40  # shown of a message
 MAX_CHARACTERS = 200  # shown of a value
+JOINT_FIELDS = ("position", "velocity", "effort")  # of sensor_msgs/msg/JointState
 SKIPPED_FIELDS = ("header", "covariance", "stamp")  # whose numbers are not plotted
+
+
+class TopicMessage(Protocol):
+    """A message with its topic, its type and its stamp (s); reading `message` may decode it."""
+
+    topic: str
+    type: str
+    stamp: float
+
+    @property
+    def message(self) -> Any:
+        """The decoded message."""
 
 
 def decoded(item: Any) -> Any:
@@ -38,6 +51,15 @@ def text_lines(message: Any) -> list[str]:
     lines = [line for _, line in field_lines(message)]
     more = [f"... and {len(lines) - MAX_LINES} more lines"] if len(lines) > MAX_LINES else []
     return lines[:MAX_LINES] + more
+
+
+def numbers_to_plot(message: Any) -> Iterator[tuple[str, float]]:
+    """The numeric fields of a message outside lists; of joints' states "elbow_joint position" and so on."""
+    yield from single_numbers(message)
+    joints = list(getattr(message, "name", ()))
+    for field in JOINT_FIELDS if joints and not isinstance(message.name, str) else ():
+        values = getattr(message, field, ())
+        yield from ((f"{joint} {field}", float(value)) for joint, value in zip(joints, values, strict=False))
 
 
 def single_numbers(message: Any, before: str = "") -> Iterator[tuple[str, float]]:

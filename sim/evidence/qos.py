@@ -18,7 +18,7 @@ _LENGTHS = {"deadline": "deadline", "liveliness_lease_duration": "liveliness lea
 
 
 def settings(profile: Any) -> dict[str, Any]:
-    """What an rclpy `QoSProfile` sets: policies as words in small letters, durations in seconds.
+    """Return what an rclpy `QoSProfile` sets: policies as words in small letters, durations in seconds.
 
     A duration is None where it has no limit.
     """
@@ -32,13 +32,13 @@ def settings(profile: Any) -> dict[str, Any]:
 
 
 def refusal(offered: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str, str, str] | None:
-    """Why a subscription receives nothing from a publisher: the policy, what is offered, what is asked for.
+    """Return why a subscription receives nothing from a publisher: the policy, what's offered and requested.
 
     None where the two fit. What isn't known of one of them fits.
     """
     for policy, strengths in _STRENGTHS.items():
         given, requested = offered.get(policy), wanted.get(policy)
-        if {given, requested} <= set(strengths) and strengths.index(given) < strengths.index(requested):
+        if given in strengths and requested in strengths[strengths.index(given) + 1 :]:
             return policy, given, requested
     for limit, name in _LENGTHS.items():
         given, requested = offered.get(limit), wanted.get(limit)
@@ -48,5 +48,5 @@ def refusal(offered: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str,
 
 
 def offer(policy: str, offered: str) -> str:
-    """How a publisher publishes, for a sentence; of what `refusal` gives."""
+    """Return how a publisher publishes, for a sentence; of what `refusal` gives."""
     return f"with {policy} {offered}" if offered else f"without a {policy}"

@@ -19,11 +19,13 @@ def readings(
     newest: Newest,
     ranges: Sequence[float] | None,
     contacts: Sequence[Contact],
+    orders: Sequence[Any] = (),
 ) -> Iterator[tuple[str, str]]:
     """Pairs of a label and a text.
 
     pose: x, y (m) and yaw (rad) of the robot or turtle that can be driven; None for a machine, whose joints
     are shown. newest: see `Newest`. ranges: of the robot's newest scan (m). contacts: all so far.
+    orders: the messages of a warehouse's desk so far.
     """
     if world is None or pose is None:
         yield from _joints(newest)
@@ -38,8 +40,20 @@ def readings(
     yield from _sensors(world, newest, ranges)
     if world.goal is not None:
         yield "goal", f"{math.dist((x, y), world.goal):.2f} m"
+    if world.warehouse is not None:
+        yield from _orders(orders, str(world.driven_body))
     if world.machine is None and odom is not None:
         yield "contacts", f"{len(contacts)}, at {contacts[-1].stamp:.1f} s" if contacts else "none"
+
+
+def _orders(orders: Sequence[Any], robot: str) -> Iterator[tuple[str, str]]:
+    """The order that the robot carries, how many others wait, and how many were delivered, by any robot."""
+    kinds: Any = type(orders[-1]) if orders else None  # its constants are what a status can be
+    newest = {order.id: order for order in orders}.values()
+    carried = [order.id for order in newest if order.robot == robot and order.status == kinds.PICKED_UP]
+    yield "carries", f"order {carried[-1]}" if carried else "nothing"
+    yield "orders waiting", f"{sum(order.status == kinds.WAITING for order in newest)}"
+    yield "delivered", f"{sum(order.status == kinds.DELIVERED for order in newest)}"
 
 
 def _command(topic: str, newest: Newest) -> Iterator[tuple[str, str]]:

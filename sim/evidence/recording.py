@@ -34,7 +34,7 @@ class Recording(RunData):
     player: ClassVar[Callable[..., Any]]
 
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
-        """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
+        """Return what happened from `begin` on and before `end`, as a recording for any measure.
 
         Calls and goals count by when they were requested, callbacks by when they began; the graph, what
         pens drew and what became of messages on the network stay whole.
@@ -67,7 +67,7 @@ class Recording(RunData):
         )
 
     def pose_at(self, stamp: Seconds) -> Pose:
-        """Where the robot really was at that time: its first pose from then on, or its last.
+        """Return where the robot really was at that time: its first pose from then on, or its last.
 
         Raises ValueError for a run without a robot.
         """
@@ -78,7 +78,7 @@ class Recording(RunData):
 
     @property
     def started_at(self) -> Seconds:
-        """When the last of the programs under test started: 0, but for an order in which one is late."""
+        """Return when the last program under test started: 0, except in an order in which one is late."""
         order = Order.parse(self.order or None)
         if order is None:
             return 0.0
@@ -95,7 +95,7 @@ class Recording(RunData):
 
     @property
     def tip(self) -> list[Pose]:
-        """Where the far end of a machine's last link was, and which way that link pointed.
+        """Return where the far end of a machine's last link was, and which way that link pointed.
 
         Empty for a run without a machine that is made of links.
         """

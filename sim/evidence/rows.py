@@ -56,7 +56,7 @@ class CallbackError(NamedTuple):
 
     @property
     def note(self) -> str:
-        """What is known about the cause: which function returned a None; "" if nothing is."""
+        """Return what is known about the cause: which function returned a None; "" if nothing is."""
         return self.traceback.rpartition(f"\n{NOTE}")[2].strip() if f"\n{NOTE}" in self.traceback else ""
 
     @property
@@ -117,7 +117,7 @@ FACTS = (BUNDLED, CALLS_PUBLISH, NAMELESS, RATE, SPUN, TAKEN_OVER, UNFINISHED, W
 
 
 class NodeFact(NamedTuple):
-    """What is known of a node beside what it did: one of FACTS, or UNMATCHED; each once for a node."""
+    """A fact about a node beside what it did: one of FACTS, or UNMATCHED; each once for a node."""
 
     stamp: Seconds
     node: str
@@ -138,7 +138,7 @@ class Departure(NamedTuple):
 
 
 class Pose(NamedTuple):
-    """Where the robot really was (ground truth, map frame)."""
+    """The robot's true pose (ground truth, map frame)."""
 
     stamp: Seconds
     x: float
@@ -147,7 +147,7 @@ class Pose(NamedTuple):
 
 
 class Ended(NamedTuple):
-    """Why the run ended: time, goal, finished, error, hang, livelock, blocked or interrupted."""
+    """The reason why the run ended: time, goal, finished, error, hang, livelock, blocked or interrupted."""
 
     reason: str
     stamp: Seconds
@@ -166,7 +166,8 @@ def since_start(stamp: Any) -> Seconds:
 
     It is below 0 for what was before the start, as 0 in a message is, which stands for no time at all.
     """
-    return (stamp.sec * SECOND + stamp.nanosec - EPOCH) / SECOND
+    nanoseconds: int = stamp.sec * SECOND + stamp.nanosec
+    return (nanoseconds - EPOCH) / SECOND
 
 
 def rate(stamps: Sequence[Seconds]) -> float:

@@ -74,7 +74,10 @@ def _pack(rest: dict[str, Any]) -> bytes:
 
 
 def _unpack(data: bytes) -> dict[str, Any]:
-    return json.loads(data, object_hook=lambda item: b64decode(item["base64"]) if "base64" in item else item)
+    rest: dict[str, Any] = json.loads(
+        data, object_hook=lambda item: b64decode(item["base64"]) if "base64" in item else item
+    )
+    return rest
 
 
 def _write_messages(writer: Writer, messages: list[Message]) -> None:
@@ -130,6 +133,7 @@ def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
             channel.metadata["early"] == _YES[True],
         )
         for schema, channel, message in reader.iter_messages(log_time_order=False)
+        if schema is not None
     ]
     known = {name: hint for name, hint in _rest(kind).items() if name not in ADDED or name in rest}
     restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in known.items()}
@@ -156,8 +160,9 @@ def _maker(hint: Any) -> Callable[[Any], Any]:
     kind, inner = get_origin(hint), get_args(hint)
     if hint in PLAIN:
         return _as_it_is
-    if hint in (World, Network):
-        return hint.from_data
+    if hint is World or hint is Network:
+        from_data: Callable[[Any], Any] = hint.from_data
+        return from_data
     if kind is UnionType:
         make = _maker(inner[0])
         return lambda value: None if value is None else make(value)

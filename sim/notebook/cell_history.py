@@ -36,7 +36,7 @@ class OutdatedName:
 
     @property
     def hint(self) -> str:
-        """What to do next."""
+        """Return what to do next."""
         if self.error:
             return "Fix that cell and run it; then run this one again."
         return "Run that cell (Shift+Enter); then run this one again."
@@ -105,7 +105,7 @@ class CellHistory:
     def explain_missing(
         self, name: str, order: list[str] | None = None, sources: dict[str, str] | None = None
     ) -> str:
-        """How to define an undefined name; "" if no cell above defines it.
+        """Return how to define an undefined name; "" if no cell above defines it.
 
         order and sources: from the notebook's file, used if the page has sent none.
         """

@@ -19,6 +19,8 @@ GROUP = "sim.failure_explainers"
 # Dark red on light red: 8 to 1, in a light and in a dark page.
 STYLE = "color: #8c1d18; background-color: #fdecea; padding: 6px 10px; margin: 4px 0"
 _CODE = re.compile("`([^`]+)`")
+# The page's own colors of code are legible on its own background only.
+_AS_CODE = r'<code style="color: inherit; background: none">\1</code>'
 _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 _reported: tuple[int, weakref.ref[Recording]] | None = None  # the execution count, and what was shown in it
 
@@ -41,7 +43,7 @@ def report_failure(recording: Recording) -> None:
 
 
 def is_reported(recording: Recording) -> bool:
-    """Whether the running cell has already shown the failure of this recording."""
+    """Return whether the running cell has already shown the failure of this recording."""
     ipython = shell()
     if ipython is None or _reported is None:
         return False
@@ -64,7 +66,7 @@ def failure_html(lines: list[str]) -> str:
     """The lines in red, legible without a style sheet."""
     if not lines:
         return ""
-    first, *more = (_CODE.sub(r"<code>\1</code>", html.escape(line)) for line in lines)
+    first, *more = (_CODE.sub(_AS_CODE, html.escape(line)) for line in lines)
     text = "<br>".join([f"<strong>{first}</strong>", *more])
     return f'<div class="ros2-failure" style="{STYLE}">{text}</div>'
 

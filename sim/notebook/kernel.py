@@ -18,6 +18,7 @@ from sim.notebook.page_comm import PageComm
 from sim.notebook.shared_scripts import SharedScripts
 from sim.notebook.written_files import OutdatedFile, OutdatedModule, WrittenFiles
 from sim.ros.absent_names import explain_absent_name
+from sim.ros2.absent_colcon import missing_colcon
 
 COURSE_FOLDERS = tuple(str(Path(__file__).parents[2] / name) for name in ("sim", "grader"))
 REFUSALS = TypeError, ValueError, LookupError  # what the course raises for arguments
@@ -48,7 +49,7 @@ def shell() -> Any:
 
 
 def in_notebook() -> bool:
-    """Whether this is a notebook's kernel, which can display pictures."""
+    """Return whether this is a notebook's kernel, which can display pictures."""
     return shell() is not None
 
 
@@ -58,7 +59,7 @@ def notebook_page() -> PageComm:
 
 
 def shared_scripts() -> SharedScripts:
-    """Which outputs contain the scripts of pictures; outside a notebook, each does."""
+    """Return which outputs contain the scripts of pictures; outside a notebook, each does."""
     return _scripts
 
 
@@ -75,6 +76,8 @@ def watch_cells() -> None:
         history.begin(_key(info), info.raw_cell or "")
         _files.begin(info.raw_cell or "")
         _scripts.begin(_key(info))
+        if sentence := missing_colcon(info.raw_cell or ""):
+            print(sentence)
 
     def end(result: Any) -> None:
         error = result.error_before_exec or result.error_in_exec
@@ -112,7 +115,7 @@ def raise_if_outdated(nodes: Iterable[Any]) -> None:
 
 
 def explain_missing_name(name: str) -> str:
-    """How to define an undefined name that a cell above defines, or a defined name like it; "" if none."""
+    """Return how to define an undefined name that a cell above defines, or a similar name; "" if none."""
     if _history is None or not name:
         return ""
     return _history.explain_missing(name, *_file()) or _history.suggest(name)
@@ -155,8 +158,8 @@ def _drop_course_frames(trace: TracebackType | None) -> None:
 
 def _interruption(error: BaseException, trace: TracebackType | None) -> str:
     """A sentence for an interrupt during course code, else ""."""
-    if hasattr(error, "_render_traceback_"):
-        return ""  # it has its own message
+    if not isinstance(error, KeyboardInterrupt) or hasattr(error, "_render_traceback_"):
+        return ""  # another error, or one that has its own message
     while trace is not None:
         if trace.tb_frame.f_code.co_filename.startswith(COURSE_FOLDERS):
             return "You interrupted this cell."

@@ -26,7 +26,7 @@ def bound_names(source: str) -> set[str]:
 
 
 def is_same_code(one: str, other: str) -> bool:
-    """Whether two sources are the same code, apart from comments and blank lines."""
+    """Return whether two sources are the same code, apart from comments and blank lines."""
     try:
         return one == other or ast.dump(ast.parse(one)) == ast.dump(ast.parse(other))
     except (SyntaxError, ValueError):

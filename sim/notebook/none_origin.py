@@ -151,7 +151,7 @@ def _calls(operand: ast.expr, scope: ast.AST, frame: FrameType) -> Iterator[ast.
 
 
 def _last_assigned(target: ast.expr, scope: ast.AST) -> ast.expr | None:
-    """What was assigned to a name last before it is used there."""
+    """Return what was assigned to a name last before it is used there."""
     here = target.lineno, target.col_offset
     before = {at: value for at, value in _assigned(target, scope).items() if at <= here}
     return before[max(before)] if before else None
@@ -171,7 +171,7 @@ def _assigned(target: ast.expr, scope: ast.AST) -> dict[_Place, ast.expr]:
 
 
 def _value(expression: ast.expr, frame: FrameType) -> Any:
-    """What a name, or an attribute of what one means, is there; code of the user's is not executed."""
+    """Return what a name, or an attribute of what one means, is there; code of the user's is not executed."""
     if isinstance(expression, ast.Name):
         for names in (frame.f_locals, frame.f_globals, vars(sys.modules["builtins"])):
             if expression.id in names:
@@ -189,7 +189,7 @@ def _enclosing(tree: ast.Module, part: ast.AST) -> Function | None:
 
 
 def _falls_through(body: list[ast.stmt]) -> bool:
-    """Whether execution may reach the end of a block, and so return None."""
+    """Return whether execution may reach the end of a block, and so return None."""
     last = body[-1]
     if isinstance(last, ast.If):
         return not last.orelse or _falls_through(last.body) or _falls_through(last.orelse)

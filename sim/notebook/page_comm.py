@@ -22,8 +22,10 @@ class PageComm:
 
     def open(self, on_cells: Callable[[list[str], dict[str, str]], None]) -> None:
         """Open the comm. on_cells: called with the ids of all cells in order, and the changed sources."""
-        from comm import create_comm  # imported here because it requires a kernel
-
+        try:
+            from comm import create_comm  # imported here because it requires a kernel
+        except ImportError:  # an old kernel, as in some notebook services, which don't have the extension
+            return
         self._on_cells = on_cells
         self._comm = create_comm(target_name=TARGET, data={})
         self._comm.on_msg(self._on_message)

@@ -24,7 +24,7 @@ class SharedScripts:
         self._carriers = {script: by for script, by in self._carriers.items() if by in order}
 
     def is_needed(self, script: str) -> bool:
-        """Whether the next output has to contain this script; if so, the running cell is now the carrier."""
+        """Return whether the next output must contain this script; if so, the running cell now carries it."""
         if script in self._carriers:
             return False
         if self._running:

@@ -21,7 +21,7 @@ class SpinOutsideRunError(RuntimeError):
 
 
 def is_limited() -> bool:
-    """Whether a spin here blocks a notebook's cell: the caller is the main thread of a kernel."""
+    """Return whether a spin here blocks a notebook's cell: the caller is the main thread of a kernel."""
     return shell() is not None and threading.current_thread() is threading.main_thread()
 
 
@@ -65,6 +65,6 @@ def _program(node: Any) -> tuple[str, str]:
 
 
 def _is_of_notebook(frame: FrameType) -> bool:
-    """Whether it is a function that a cell has defined at its top level, not the cell itself."""
+    """Return whether it is a function that a cell has defined at its top level, not the cell itself."""
     name = frame.f_code.co_name
     return frame.f_globals is shell().user_ns and name.isidentifier() and name in frame.f_globals

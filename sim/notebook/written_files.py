@@ -27,7 +27,7 @@ class OutdatedFile:
 
     @property
     def hint(self) -> str:
-        """What to do next."""
+        """Return what to do next."""
         return "Run that cell (Shift+Enter), then the cells that import the file; then run this one again."
 
 
@@ -44,7 +44,7 @@ class OutdatedModule:
 
     @property
     def hint(self) -> str:
-        """What to do next."""
+        """Return what to do next."""
         return f"Run the cell with importlib.reload({self.name}); then run this one again."
 
 

@@ -22,7 +22,7 @@ LIKE_A_TYPO = 0.8  # least similarity of a module's name and one that is here
 
 
 def explain_absent_name(error_type: str, text: str) -> str:
-    """What the module or package in an error is, and how to get it; "" if neither is known."""
+    """Return what the module or package in an error is, and how to get it; "" if neither is known."""
     found = re.search(NAMES[error_type], text) if error_type in NAMES else None
     if not found:
         return ""
@@ -41,7 +41,7 @@ def explain_absent_name(error_type: str, text: str) -> str:
 
 
 def _unknown_module(text: str) -> str:
-    """Where a module that is in no table can come from; "" if its name looks misspelt."""
+    """Return where a module that is in no table can come from; "" if its name looks misspelt."""
     found = re.search(r"^No module named '(\w+)'$", text)
     if not found or closest_match(found[1], {*packages(), *sys.stdlib_module_names}, LIKE_A_TYPO):
         return ""

@@ -73,5 +73,5 @@ def command_in_a_run(name: str) -> Callable[[], None] | None:
 
 
 def alternative(package: str, name: str) -> str | None:
-    """What to use instead of a program that is not included, or None."""
+    """Return what to use instead of a program that is not included, or None."""
     return ALTERNATIVES.get((package, name))

@@ -15,7 +15,7 @@ _WINDOWS = re.compile(r"rviz2?|rqt(_\w+)?|plotjuggler|foxglove_bridge|joint_stat
 
 
 def is_left_out(package: str, name: str) -> bool:
-    """Whether a launch file leaves out this program, because it only shows something and isn't installed."""
+    """Return whether a launch file leaves out this program: it only shows something and isn't installed."""
     window = _WINDOWS.fullmatch(package)
     return window is not None and not (package in packages() and name in executables(package))
 
@@ -37,7 +37,7 @@ def left_out(package: str) -> Callable[[], None]:
 
 
 def command_of_launch(package: str, name: str) -> list[str] | None:
-    """As `bundled_command`, for launch files of a terminal."""
+    """Work like `bundled_command`, for launch files of a terminal."""
     if is_left_out(package, name):
         return [sys.executable, "-m", "sim.ros.left_out", package]
     return bundled_command(package, name)

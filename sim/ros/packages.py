@@ -61,7 +61,7 @@ def path_of(package: str, name: str) -> Path:
 
 
 def command_of(package: str, name: str) -> list[str]:
-    """What `ros2 run package name` starts. Raises as `executable`."""
+    """Return what `ros2 run package name` starts. Raises as `executable`."""
     bundled = bundled_command(package, name)
     if bundled is not None:
         return bundled
@@ -178,7 +178,7 @@ def _first_line(file: Path) -> bytes:
 
 
 def why_no_package(package: str) -> str:
-    """Why a package is not found: not sourced, known and not here, misspelt, or nowhere."""
+    """Return why a package is not found: not sourced, known and not here, misspelt, or nowhere."""
     reason = workspaces.why_unavailable(package) or explain_package(package)
     if reason:
         return reason

@@ -102,7 +102,7 @@ def _flat(values: Any, prefix: str) -> Iterator[tuple[str, Any]]:
 
 
 def _matches(key: str, node: str) -> bool:
-    """Whether a name such as `/**`, `/*/arm`, `/left/arm` or `arm` is this node's full name."""
+    """Return whether a name such as `/**`, `/*/arm`, `/left/arm` or `arm` is this node's full name."""
     parts = re.split(r"(/?\*\*|\*)", key if key.startswith("/") else f"/{key}")
     wild = {"/**": ".*", "**": ".*", "*": "[^/]+"}
     return re.fullmatch("".join(wild.get(part, re.escape(part)) for part in parts), node) is not None

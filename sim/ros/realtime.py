@@ -59,7 +59,7 @@ class _Executor(SingleThreadedExecutor):
         self._move_on = move_on
 
     def wait_for_ready_callbacks(self, *arguments: Any, **keywords: Any) -> Any:
-        """As rclpy's executors; what is ready finds the world where it is by now."""
+        """Work like rclpy's executors; what is ready finds the world where it is by now."""
         ready = super().wait_for_ready_callbacks(*arguments, **keywords)
         self._move_on()
         return ready

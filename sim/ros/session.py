@@ -92,12 +92,12 @@ class Session:
 
     @property
     def interrupted(self) -> bool:
-        """Whether the user has interrupted the run while it executed."""
+        """Return whether the user has interrupted the run while it executed."""
         return self._interrupted or (self.engine is not None and self.engine.guard.interrupted)
 
     @property
     def elsewhere(self) -> bool:
-        """Whether it belongs to another thread than the caller's."""
+        """Return whether it belongs to another thread than the caller's."""
         return self._thread != threading.get_ident()
 
     @property

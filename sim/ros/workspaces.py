@@ -13,7 +13,7 @@ LAYOUT = ".colcon_install_layout"  # in install/
 
 
 def why_unavailable(package: str) -> str:
-    """Why a package in a workspace here was not found, and what to do; "" for any other."""
+    """Return why a package in a workspace here was not found, and what to do; "" for any other."""
     for folder in _workspaces():
         shown = _shown(folder)
         at, into = ("here", "") if shown == "." else (f"in {shown}", f"{shown}/")
@@ -55,7 +55,7 @@ def read_name(file: Path) -> tuple[str, str]:
 
 
 def why_invalid(file: Path) -> str:
-    """What colcon does not accept in a package.xml, or ""."""
+    """Return what colcon does not accept in a package.xml, or ""."""
     try:
         from catkin_pkg.package import InvalidPackage, parse_package  # slow, and colcon's
     except ImportError:

@@ -17,13 +17,13 @@ EVENTS, EVENT_TYPE = "/_service_event", "_Event"  # how the topic and the type o
 
 
 def is_service_event(topic: str, type_: str) -> bool:
-    """Whether a topic carries the events of a service."""
+    """Return whether a topic carries the events of a service."""
     return topic.endswith(EVENTS) and "/srv/" in type_ and type_.endswith(EVENT_TYPE)
 
 
 @dataclass
 class Contents:
-    """How many messages of which topics a bag has, and from when to when, in nanoseconds since 1970."""
+    """The number of a bag's messages by topic, and from when to when, in nanoseconds since 1970."""
 
     counts: Counter[str] = field(default_factory=Counter)
     types: dict[str, str] = field(default_factory=dict)

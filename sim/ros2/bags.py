@@ -107,7 +107,7 @@ class Bag:
 
     @property
     def contents(self) -> Contents:
-        """What is in it."""
+        """Return what is in it."""
         found = Contents()
         for schema, channel, message in self.messages():
             found.add(channel.topic, schema.name, message.log_time)

@@ -94,7 +94,7 @@ class RunSystem(LiveSystem):
         return self
 
     def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
-        """As `System`."""
+        """Work like `System`."""
         try:
             return task(self._node, Output(self.print_line))
         except (NameValidationException, ValueError) as error:  # an invalid name

@@ -20,7 +20,7 @@ ALL = {
 
 
 def discovery_options(words: str) -> tuple[Argument, ...]:
-    """Those of a command and its verb, such as "topic echo"."""
+    """Return the options of a command and its verb, such as "topic echo"."""
     if words in DIRECT:
         return (SPIN_TIME,)
     return (SPIN_TIME, SIM_TIME, NO_DAEMON) if words in ALL else ()

@@ -78,7 +78,7 @@ class Parser(argparse.ArgumentParser):
     """Raises an exception where argparse exits, and suggests the correct argument for a misspelt one."""
 
     def parse_args(self, *arguments: Any) -> argparse.Namespace:  # type: ignore[override]
-        """As `ArgumentParser.parse_args`; what the official command has and this one lacks is named."""
+        """Work like `ArgumentParser.parse_args`; name what the official command has and this one lacks."""
         options, unknown = self.parse_known_args(*arguments)
         words = f"{options.command or ''} {getattr(options, 'verb', None) or ''}".strip()
         for option in unknown:
@@ -89,7 +89,7 @@ class Parser(argparse.ArgumentParser):
         return options
 
     def error(self, message: str) -> NoReturn:
-        """As `ArgumentParser.error`, but raises `UsageError`."""
+        """Work like `ArgumentParser.error`, but raises `UsageError`."""
         quotes = QUOTES if UNQUOTED.match(message) else ""
         raise UsageError(f"{self.format_usage()}{self.prog}: error: {message}{quotes}")
 

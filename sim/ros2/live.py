@@ -82,7 +82,7 @@ class LiveSystem(System):
             quiet, known = (quiet + 1 if found == known else 0), found
 
     def _is_incomplete(self) -> bool:
-        """Whether there is a participant whose nodes, or a node whose endpoints, are not known yet."""
+        """Return whether there is a participant whose nodes, or a node whose endpoints, are not known yet."""
         nodes = self._node.get_node_names_and_namespaces()
         if len(nodes) == 1:  # its own node
             return len(domains.participant_ports(self.domain)) > 2
@@ -90,23 +90,23 @@ class LiveSystem(System):
 
     @property
     def nodes(self) -> list[str]:
-        """As `System`."""
+        """Work like `System`."""
         found = self._node.get_node_names_and_namespaces()
         return [f"{space.rstrip('/')}/{name}" for name, space in found if name != self._node.get_name()]
 
     @property
     def endpoints(self) -> list[Endpoint]:
-        """As `System`, with the QoS of topics as far as the middleware knows it."""
+        """Work like `System`, with the QoS of topics as far as the middleware knows it."""
         own_name = self._node.get_fully_qualified_name()
         return [endpoint for endpoint in endpoints_seen_by(self._node) if endpoint.node != own_name]
 
     @property
     def now(self) -> float:
-        """As `System`: of the wall clock."""
+        """Work like `System`: of the wall clock."""
         return time.time()
 
     def look_up(self, name: str, find: Callable[[], Known], seconds: float | None = None) -> Known:
-        """As `System`."""
+        """Work like `System`."""
         found = find()
         for _ in range(MAX_RETRIES if seconds is None else round(seconds / POLL_GRAPH)):
             if name in found:
@@ -118,7 +118,7 @@ class LiveSystem(System):
     def subscribe(
         self, topics: dict[str, str], profile: QoSProfile | None = None
     ) -> Iterator[ReceivedMessage | None]:
-        """As `System`, until Ctrl-C."""
+        """Work like `System`, until Ctrl-C."""
         received: list[ReceivedMessage] = []
 
         def make_callback(topic: str, type_: str) -> Callable[[bytes, dict], None]:
@@ -154,7 +154,7 @@ class LiveSystem(System):
         return chosen
 
     def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
-        """As `System`, without a time limit: Ctrl-C ends it."""
+        """Work like `System`, without a time limit: Ctrl-C ends it."""
         return with_node(task, Output(self.print_line))
 
 

@@ -33,7 +33,7 @@ def ros2(line: str) -> None:
 
 
 def completions(line: str) -> list[str]:
-    """What the last word of an incomplete command after %ros2 can be."""
+    """Return what the last word of an incomplete command after %ros2 can be."""
     finder = CompletionFinder(
         make_parser(_make_completer),
         always_complete_options=False,

@@ -26,6 +26,6 @@ PRINTING = (
 
 
 def style_of(options: Namespace) -> Style:
-    """How these options want a message to be printed."""
+    """Return how these options want a message to be printed."""
     length = None if options.full_length else options.truncate_length
     return Style(length, options.no_arr, options.no_str, options.flow_style)

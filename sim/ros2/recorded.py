@@ -45,12 +45,12 @@ class RecordedSystem(System):
 
     @property
     def nodes(self) -> list[str]:
-        """As `System`: all nodes of the run."""
+        """Work like `System`: all nodes of the run."""
         return [name for name in self.recording.graph.nodes if f"/{OWN_NAME}" not in name]
 
     @property
     def endpoints(self) -> list[Endpoint]:
-        """As `System`."""
+        """Work like `System`."""
         nodes = self.nodes
         declared = [end for end in self.recording.graph.endpoints if end.node in nodes]
         for node in dict.fromkeys(nodes):
@@ -64,13 +64,13 @@ class RecordedSystem(System):
 
     @property
     def now(self) -> float:
-        """As `System`: the end of the run."""
+        """Work like `System`: the end of the run."""
         return self.recording.stamp
 
     def subscribe(
         self, topics: dict[str, str], profile: QoSProfile | None = None
     ) -> Iterator[ReceivedMessage | None]:
-        """As `System`: all recorded messages, at once."""
+        """Work like `System`: all recorded messages, at once."""
         self._warn_of_incompatible(topics, profile)
         yield from self._published(0, topics, profile)
 
@@ -119,19 +119,19 @@ class PlayedSystem(RecordedSystem):
 
     @property
     def nodes(self) -> list[str]:
-        """As `System`."""
+        """Work like `System`."""
         alive = self._player.nodes
         return [name for name in super().nodes if name in alive]
 
     @property
     def now(self) -> float:
-        """As `System`."""
+        """Work like `System`."""
         return self._player.stamp
 
     def subscribe(
         self, topics: dict[str, str], profile: QoSProfile | None = None
     ) -> Iterator[ReceivedMessage | None]:
-        """As `System`, but only for the time limit, because other cells wait."""
+        """Work like `System`, but only for the time limit, because other cells wait."""
         first = len(self.recording.published)
         self._warn_of_incompatible(topics, profile)
         yield from self._latched(topics, profile)
@@ -152,7 +152,7 @@ class PlayedSystem(RecordedSystem):
                 yield from stored[-end.qos["depth"] :]
 
     def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
-        """As `System`, with a node in the player's run."""
+        """Work like `System`, with a node in the player's run."""
         lines: list[str] = []
         results: list[T] = []
         failures: list[CliError] = []

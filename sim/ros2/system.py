@@ -56,7 +56,7 @@ NodeTask = Callable[[Node, Output], T]
 
 
 class System(ABC):
-    """What a command inspects and uses. print_line: prints a line of the output."""
+    """The system that a command inspects and uses. print_line: prints a line of the output."""
 
     finished = False  # True for a recording: no time passes any more
     time_limit: float | None = None  # s, of commands that would not end by themselves
@@ -102,7 +102,7 @@ class System(ABC):
         return self.run_with_node(lambda node, _: call_service(node, kind, service, request))
 
     def look_up(self, name: str, find: Callable[[], Known], seconds: float | None = None) -> Known:
-        """What `find` returns; during discovery, `find` is retried until its result contains the name.
+        """Return what `find` returns; during discovery, `find` is retried until its result contains the name.
 
         seconds: so long at most; None for the usual time.
         """
@@ -134,7 +134,7 @@ class System(ABC):
 
 
 def is_hidden(name: str) -> bool:
-    """Whether a name is hidden by ROS's convention."""
+    """Return whether a name is hidden by ROS's convention."""
     return any(part.startswith(HIDDEN) for part in name.split("/"))
 
 

@@ -26,7 +26,7 @@ TimeSetter = Callable[[Any], None]  # takes a builtin_interfaces/msg/Time
 
 
 class Style(NamedTuple):
-    """How a message is printed."""
+    """The style in which a message is printed."""
 
     length: int | None = None  # of texts and sequences; longer ones end with "..."
     no_arr: bool = False  # print only the types of sequences
@@ -57,7 +57,7 @@ def as_dict(message: Any, style: Style) -> dict[str, Any]:
 
 
 def dump(values: dict[str, Any], style: Style) -> str:
-    """What `as_dict` returns as YAML, with a final newline."""
+    """Return what `as_dict` returns as YAML, with a final newline."""
     look = {"allow_unicode": True, "width": sys.maxsize, "default_flow_style": style.flow}
     return yaml.dump(values, Dumper=_Dumper, **look)
 

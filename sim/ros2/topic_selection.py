@@ -15,7 +15,7 @@ from sim.ros2.system import CliError, is_hidden
 
 @dataclass
 class TopicSelection:
-    """What the official options of the same names select. Raises CliError for an invalid expression."""
+    """A selection by the official options of the same names. Raises CliError for an invalid expression."""
 
     all_topics: bool = False
     all_services: bool = False
@@ -36,13 +36,13 @@ class TopicSelection:
 
     @classmethod
     def of(cls, options: Namespace | dict[str, Any]) -> TopicSelection:
-        """As options of a command, or the dictionary of a YAML file, select it."""
+        """Return the selection by a command's options, or by the dictionary of a YAML file."""
         given = vars(options) if isinstance(options, Namespace) else options
         return cls(**{each.name: given[each.name] for each in fields(cls) if given.get(each.name)})
 
     @property
     def is_empty(self) -> bool:
-        """Whether it selects nothing, whatever there is."""
+        """Return whether it selects nothing, whatever there is."""
         whole = self.all_topics or self.all_services
         return not (whole or self.topics or self.services or self.topic_types or self.regex)
 
@@ -52,7 +52,7 @@ class TopicSelection:
         return [*self.topics, *(f"{service}{EVENTS}" for service in self.services)]
 
     def includes(self, topic: str, type_: str) -> bool:
-        """Whether it selects this topic."""
+        """Return whether it selects this topic."""
         if topic in self.exclude_topics or (self.exclude_regex and re.search(self.exclude_regex, topic)):
             return False
         if is_service_event(topic, type_):

@@ -31,7 +31,7 @@ class TopicStatistic(ABC):
         """The current value as text; empty if there are too few messages."""
 
     def due(self, now: float) -> str:
-        """As `text`, but only once a second; otherwise empty."""
+        """Work like `text`, but only once a second; otherwise empty."""
         if self._reported_at is None:
             self._reported_at = now
         if now < self._reported_at + REPORT_PERIOD - 1e-9:
@@ -58,13 +58,13 @@ class Rate(TopicStatistic):
         self._reported: float | None = None
 
     def add(self, message: ReceivedMessage) -> None:
-        """As `TopicStatistic`."""
+        """Work like `TopicStatistic`."""
         if self._last is not None:
             self._gaps.append(message.stamp - self._last)
         self._last = message.stamp
 
     def text(self, now: float) -> str:
-        """As `TopicStatistic`; empty if no message came since the last report."""
+        """Work like `TopicStatistic`; empty if no message came since the last report."""
         if not self._gaps or self._last == self._reported:
             return ""
         self._reported = self._last
@@ -82,11 +82,11 @@ class Bandwidth(TopicStatistic):
         self._sizes: deque[tuple[float, int]] = deque(maxlen=window)
 
     def add(self, message: ReceivedMessage) -> None:
-        """As `TopicStatistic`."""
+        """Work like `TopicStatistic`."""
         self._sizes.append((message.stamp, len(message.raw)))
 
     def text(self, now: float) -> str:
-        """As `TopicStatistic`."""
+        """Work like `TopicStatistic`."""
         if len(self._sizes) < 2 or now <= self._sizes[0][0]:
             return ""
         sizes = [size for _, size in self._sizes]
@@ -115,7 +115,7 @@ class Delay(TopicStatistic):
         self._new = False
 
     def add(self, message: ReceivedMessage) -> None:
-        """As `TopicStatistic`. Raises CliError for a message without a header."""
+        """Work like `TopicStatistic`. Raises CliError for a message without a header."""
         from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
 
         decoded = decode(message.type, message.raw)
@@ -127,7 +127,7 @@ class Delay(TopicStatistic):
         self._new = True
 
     def text(self, now: float) -> str:
-        """As `TopicStatistic`."""
+        """Work like `TopicStatistic`."""
         if not self._delays:
             return ""
         if not self._new:

@@ -17,7 +17,8 @@ COMMANDS = """
     ros ros2 colcon build source export sleep cd run launch topic service node param interface pkg pub echo hz
     list info show call set get type find once times rate executables args cmd_vel logbook true false data
     std_msgs std_srvs msg srv String SetBool Bool Twist ROS_DOMAIN_ID ROS_AUTOMATIC_DISCOVERY_RANGE
-    LOCALHOST install setup bash local_setup packages select badge
+    LOCALHOST install setup bash local_setup packages select badge create type ament_python name dependencies
+    license Apache rclpy lantern shine
 """
 NAME = re.compile(r"[A-Za-z_]\w{2,}")
 ALIKE = 0.66

@@ -5,7 +5,6 @@ No shell is started: a few commands are recognized, and the others are reported 
 
 from __future__ import annotations
 
-import itertools
 import posixpath
 import re
 from collections.abc import Callable
@@ -17,14 +16,13 @@ from sim.nanoseconds import SECOND
 from sim.ros.engine.program import Process
 from sim.ros.fibers.scheduler import engine
 from sim.ros.launching.respawned import interrupt
-from sim.ros.workspaces import INDEX
 from sim.ros2.cli_program import execute_words
 from sim.ros2.domains import COURSE_DOMAIN
 from sim.ros2.typed_corrections import corrected
 from sim.ros2.typed_lines import InvalidLine, Line, lines_of, words_of
+from sim.ros2.typed_workspace import WORKSPACE, TypedWorkspace
 from sim.suggestions import closest_match
 
-WORKSPACE = "ws"  # the folder in which `colcon build` is typed
 SETUP = re.compile(rf"(?:.*/)?(?<!\b{WORKSPACE}/){WORKSPACE}/install/(?:local_)?setup\.(?:bash|sh|zsh)")
 OTHER_SETUP = re.compile(r"/opt/ros/\w+/setup\.\w+|.*/bin/activate")
 CTRL_C = re.compile(r"ctrl\W?c(?:\s+after\s+(\d+(?:\.\d+)?)\s*s?)?", re.IGNORECASE)
@@ -33,7 +31,6 @@ ROBOT = re.compile(r"python\S* -m sim\b(?:.*\s--domain[ =](\d+))?.*")
 ALONE = "interface", "pkg"  # commands of ros2 that look for no node
 OF_PROGRAMS = "launch", "run"
 OF_PACKAGES = *OF_PROGRAMS, "pkg"
-SELECT = re.compile(r"--packages-(?:select|up-to)")
 TYPING, LONG = 1.0, 10.0  # s: for each line; until a wait is reported
 
 
@@ -41,12 +38,13 @@ TYPING, LONG = 1.0, 10.0  # s: for each line; until a wait is reported
 class Terminal:
     """A terminal: its folder and variables, and the program that was started there last, by which line.
 
-    lasts: it is one that a person leaves running. robot: it is `python -m sim`: the run has its robot.
+    sourced: the packages that were built when it sourced the workspace. lasts: it is one that a person leaves
+    running. robot: it is `python -m sim`: the run has its robot.
     """
 
     folder: str = ""
     variables: dict[str, str] = field(default_factory=dict)
-    sourced: bool = False
+    sourced: frozenset[str] = frozenset()
     program: Any = None
     line: int = 0
     lasts: bool = False
@@ -74,8 +72,7 @@ class TypedSession:
         self._run = engine()
         self._spec = self._run.current.process.spec
         self._prefix = prefix
-        self._packages = {path.name for path in (prefix / INDEX / "packages").glob("*")}
-        self._built, self._domain = False, str(COURSE_DOMAIN)
+        self._workspace, self._domain = TypedWorkspace(prefix), str(COURSE_DOMAIN)
         self._commands: dict[str, Callable[[Line, Terminal, list[str]], None]] = {
             "cd": self._cd,
             "source": self._source,
@@ -174,8 +171,8 @@ class TypedSession:
 
     def _source(self, line: Line, terminal: Terminal, words: list[str]) -> None:
         path = self._path(terminal, (*words[1:], "")[0])
-        if SETUP.fullmatch(path) and self._built:
-            terminal.sourced = True
+        if SETUP.fullmatch(path) and self._workspace.built:
+            terminal.sourced = frozenset(self._workspace.built)
         elif not OTHER_SETUP.fullmatch(path):
             reason = "colcon build makes it" if SETUP.fullmatch(path) else "cd to the right folder first"
             raise InvalidLine(f"bash: {' '.join(words[1:])}: No such file or directory: {reason}")
@@ -193,17 +190,14 @@ class TypedSession:
     def _colcon(self, line: Line, terminal: Terminal, words: list[str]) -> None:
         if words[1:2] != ["build"]:
             raise InvalidLine(f"{' '.join(words[:2])} is not executed here: colcon build is")
-        reason = f"type colcon build in the workspace, the folder {WORKSPACE}"
-        if posixpath.basename(terminal.folder) == WORKSPACE:
-            unknown = [name for name in _selected(words) if name not in self._packages]
-            reason = f"there is no package '{unknown[0]}'" if unknown else ""
-        if reason:
-            raise InvalidLine(f"Summary: 0 packages finished: {reason}")
-        self._built = True
-        print("Summary: 1 package finished")
+        self._workspace.build(terminal.folder, words)
 
     def _ros2(self, line: Line, terminal: Terminal, words: list[str]) -> None:
-        self._require_package(terminal, words)
+        if words[1:3] == ["pkg", "create"]:
+            self._workspace.create(terminal.folder, words)
+            return
+        if words[1:2] and words[1] in OF_PACKAGES:
+            self._workspace.require(terminal.sourced, words[2:])
         self._require_domain(terminal, words)
         spec = self._spec
 
@@ -221,14 +215,6 @@ class TypedSession:
         ros2.bundled, terminal.line, terminal.lasts = True, line.number, (*words, "")[1] in OF_PROGRAMS
         terminal.program = self._run.start(replace(spec, target=ros2, arguments=()))
 
-    def _require_package(self, terminal: Terminal, words: list[str]) -> None:
-        """Raise InvalidLine if a package of the workspace is not found in this terminal."""
-        found = self._packages.intersection(words[2:]) if words[1:2] and words[1] in OF_PACKAGES else set()
-        if found and not terminal.sourced:
-            reason = f"source {WORKSPACE}/install/setup.bash was not typed in this terminal"
-            reason = reason if self._built else "it is not built"
-            raise InvalidLine(f"Package '{found.pop()}' not found: {reason}")
-
     def _require_domain(self, terminal: Terminal, words: list[str]) -> None:
         """Raise InvalidLine if the command would look for nodes where the robot is not."""
         domain = terminal.variables.get("ROS_DOMAIN_ID") or "0"
@@ -237,12 +223,6 @@ class TypedSession:
                 f"There are no nodes on ROS domain {domain}, but on {self._domain}:"
                 f" export ROS_DOMAIN_ID={self._domain}"
             )
-
-
-def _selected(words: list[str]) -> list[str]:
-    """The packages that a colcon command selects; none for all."""
-    at = next((number for number, word in enumerate(words, 1) if SELECT.fullmatch(word)), len(words))
-    return list(itertools.takewhile(lambda word: not word.startswith("-"), words[at:]))
 
 
 def _report_failure(line: Line) -> None:

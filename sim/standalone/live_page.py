@@ -9,8 +9,9 @@ from typing import Any
 
 from sim.ros.play.telemetry import Telemetry
 from sim.standalone.live_graph import LiveGraph
-from sim.standalone.node_traffic import NodeTraffic
+from sim.standalone.node_traffic import NodeTraffic, ObservedMessage
 from sim.standalone.server import PageServer
+from sim.view.layers import NewestLayers
 from sim.view.live_view import pack_frame
 from sim.view.strokes import visible_strokes
 from sim.view.world_data import world_data
@@ -24,6 +25,9 @@ MAX_CONTACTS = 100  # the newest are shown
 class LivePage:
     """The page of a `RealTimeRun`, served on the first free port of several until it is closed.
 
+    Its layers and topics are those of the robot's own nodes. What other programs publish for each other, such
+    as /map and /plan, would need subscriptions, which `ros2 node info` would list: RViz shows it.
+
     Raises OSError if no port is free.
     """
 
@@ -32,7 +36,9 @@ class LivePage:
         self._run, self._frames = run, 0
         self._drive, self._selected = run.teleop(), ""
         self._telemetry, self._contacts = Telemetry(), deque[Contact](maxlen=MAX_CONTACTS)
-        self._traffic = NodeTraffic(lambda: run.scene.time, self._telemetry.add)
+        self._layers, self._shown = NewestLayers(run.scene.world), list[str]()
+        self._fixed: list[dict[str, Any]] = []  # layers that are always drawn
+        self._traffic = NodeTraffic(lambda: run.scene.time, self._note)
         facts = {"world": world_data(run.scene.world), "status": self._status()}
         self._server = open_server(ports, facts, self._obey, LiveGraph(run))
         run.every(FRAME, self._show)
@@ -52,6 +58,12 @@ class LivePage:
             self._drive(*command["drive"])
         elif "topic" in command:
             self._selected = command["topic"]
+        elif "shown" in command:
+            self._shown = command["shown"]
+
+    def _note(self, message: ObservedMessage) -> None:
+        self._telemetry.add(message)
+        self._layers.add(message)
 
     def _status(self) -> dict[str, Any]:
         """Topics with rates, values, contacts, the drawing of turtles, and a warning if there is one."""
@@ -61,10 +73,12 @@ class LivePage:
         for node in run.nodes:
             self._traffic.observe(node)
         kinds = run.takes | run.gives
+        self._fixed = self._layers.changed() or self._fixed
         drawn = {} if scene.drawing is None else {"drawn": visible_strokes(scene.drawing)}
         return {
             **{"speed": 1, "pace": 1, "stamp": scene.time, "topics": self._traffic.topics(kinds)},
             **{"contacts": [[contact.x, contact.y] for contact in self._contacts], "warning": run.warning},
+            **{"layers": self._fixed, "quiet": self._layers.quiet, "shown": self._shown},
             **self._telemetry.values(scene.world, scene, self._contacts, kinds),
             **drawn,
         }
@@ -76,7 +90,8 @@ class LivePage:
         if self._frames % FRAMES_PER_STATUS == 0:
             self._server.send_status(self._status())
         self._frames += 1
-        self._server.show(pack_frame(scene.time, scene.poses, scene.last_scan))
+        frame = pack_frame(scene.time, scene.poses, scene.last_scan)
+        self._server.show(frame, self._layers.moving(scene.time, self._shown))
 
 
 def open_server(ports: Sequence[int], *arguments: Any) -> PageServer:

@@ -5,12 +5,15 @@ const GONE = "The robot's program has ended. When it is started again, this page
 const RETRY = 1000; // ms between two attempts to connect again
 
 const { world, status } = await (await fetch("/world")).json();
+const LAYERS = ["layers", "quiet", "shown"]; // are sent with the status
 const values = { world, status, graph: {} };
 const listeners = {};
 const emit = (name, ...values) => (listeners[name] ?? []).forEach((listener) => listener(...values));
 
 const model = {
   get: (name) => values[name],
+  set: (name, value) => { values[name] = value; },
+  save_changes: () => post({ shown: values.shown }).catch(() => {}),
   on: (name, listener) => (listeners[name] ??= []).push(listener),
   off: (name, listener) => { listeners[name] = (listeners[name] ?? []).filter((other) => other !== listener); },
   send: (command) => (command.graph ? loadGraph() : post(command)).catch(() => {}), // the stream reports a lost connection
@@ -36,11 +39,18 @@ live.render({ model, el: document.querySelector("main") });
 
 const stream = new EventSource("/frames");
 stream.onmessage = ({ data }) => {
-  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
-  emit("msg:custom", {}, [new DataView(bytes.buffer)]);
+  const [frame, layers] = JSON.parse(data);
+  const bytes = Uint8Array.from(atob(frame), (character) => character.charCodeAt(0));
+  emit("msg:custom", { layers }, [new DataView(bytes.buffer)]);
 };
 stream.addEventListener("status", ({ data }) => {
-  values.status = { ...values.status, ...JSON.parse(data) };
+  const { layers, quiet, shown, ...news } = JSON.parse(data), parts = { layers, quiet, shown };
+  for (const name of LAYERS) {
+    if (JSON.stringify(parts[name]) === JSON.stringify(values[name])) continue;
+    values[name] = parts[name];
+    emit(`change:${name}`);
+  }
+  values.status = { ...values.status, ...news };
   emit("change:status");
 });
 stream.onerror = () => {

@@ -8,7 +8,7 @@ import os
 import socket
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
@@ -20,8 +20,8 @@ from sim.view.live_view import parse_command
 
 ADDRESS = "127.0.0.1"  # loopback only
 MAX_VIEWERS = 8
-MAX_BYTES = 400  # of a command
-COMMANDS = {"drive", "topic"}
+MAX_BYTES = 2000  # of a command
+COMMANDS = {"drive", "topic", "shown"}
 TIMEOUT = 5.0  # s, to wait for a frame or for a browser to receive it
 POLICY = "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; connect-src 'self'; img-src data:"
 _HERE = files("sim.standalone")
@@ -31,8 +31,9 @@ class PageServer:
     """Serves the page in its own threads until it is closed.
 
     initial: the first data for the page, as JSON: {"world": ..., "status": ...}.
-    on_command: called with {"drive": [forward, left]}, each in [-1, 1], or with {"topic": name}, the topic to
-    show. graph: its result is sent to the page as JSON. Both are called in the server's threads.
+    on_command: called with {"drive": [forward, left]}, each in [-1, 1], {"topic": name}, the topic to show,
+    or {"shown": names}, topics to draw. graph: its result is sent to the page as JSON. Both are called in the
+    server's threads.
 
     Raises OSError if the port is in use.
     """
@@ -62,10 +63,11 @@ class PageServer:
         self._thread = threading.Thread(target=self._http.serve_forever, daemon=True)
         self._thread.start()
 
-    def show(self, frame: bytes) -> None:
-        """Send a frame to every connected page; a slow page receives the newest when it is ready."""
+    def show(self, frame: bytes, layers: Sequence[dict[str, Any]] = ()) -> None:
+        """Send a frame and the layers over it to every page; a slow one gets the newest when it is ready."""
+        data = json.dumps([base64.b64encode(frame).decode(), list(layers)]).encode()
         with self._changed:
-            self._frame, self._number = base64.b64encode(frame), self._number + 1
+            self._frame, self._number = data, self._number + 1
             self._changed.notify_all()
 
     def send_status(self, status: dict[str, Any]) -> None:

@@ -27,7 +27,7 @@ def panel_unit(message: Any, field: str) -> str:
 
 
 def is_command(topic: str, kind: str) -> bool:
-    """Whether a topic has commands: each holds until the next one."""
+    """Return whether a topic has commands: each holds until the next one."""
     return kind.split("/")[-1] in _COMMANDS or any(word in topic for word in _COMMAND_TOPICS)
 
 

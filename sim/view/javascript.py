@@ -9,7 +9,7 @@ from importlib.resources import files
 
 _WEB = files("sim.view") / "web"
 _BASE = ("checks.js", "elements.js", "theme.js")
-_WORLD = ("drawing.js", "camera.js", "legend.js", "layers.js", "world_canvas.js")
+_WORLD = ("drawing.js", "camera.js", "legend.js", "layers.js", "layer_paint.js", "world_canvas.js")
 _PICTURE = (*_BASE, *_WORLD, "graph.js", "topic.js")
 _FILES = {
     "live.js": _PICTURE,

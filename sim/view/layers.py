@@ -1,109 +1,152 @@
-"""Maps, plans and goals that nodes published, as layers of a world's picture.
-
-Only those in the frame `map` are drawn, which is the world's. `checkLayer` in web/layers.js parses them.
-"""
+"""Messages as layers of a world's picture: of a whole run for a replay, or the newest of one that goes on."""
 
 from __future__ import annotations
 
 import itertools
-import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-import numpy as np
-
 from sim.evidence import Message, Recording
+from sim.evidence.message_text import TopicMessage, decoded
+from sim.view.frame_tree import FrameTree
+from sim.view.layer_kinds import QUIET, frame_data, kind_of, layer_data
+from sim.view.packing import differences
 from sim.view.strokes import thinned
+from sim.world import World
 
-KINDS = {
-    "nav_msgs/msg/OccupancyGrid": "map",
-    "nav_msgs/msg/Path": "plan",
-    "geometry_msgs/msg/PoseStamped": "goal",
-}
-FRAME = "map"
-MOST = {"map": 6, "plan": 60, "goal": 60}  # messages of a topic that a replay has
-TOPICS = 6
-CELLS, POINTS, TOPIC = 160_000, 200, 200  # limits of a map, a plan and a name
-FAR = 10_000.0  # m; farther than anything in a world
+MOST = {"map": 6, "plan": 60, "goal": 60, "pose": 120, "frames": 120, "cloud": 24, "image": 12}
+TF = "/tf"  # stands for all frames
+TOPICS, FRAMES, NAME = 8, 20, 200  # limits of topics, frames, and characters of a name
+UNITS = {"pose": (1e3, 1e3, 1e3, 1e6, 1e6, 1e6), "frames": (1e3,) * 6}  # of stored whole numbers
+Layer = dict[str, Any]  # stamp (ms), topic, kind, data, and of a frame its name
 
 
-def is_layer(item: Message) -> bool:
-    """Whether a message may be a layer: a map, a plan, or a pose on a topic whose name has the word goal."""
-    return item.type in KINDS and (KINDS[item.type] != "goal" or "goal" in item.topic)
-
-
-def layers_of(recording: Recording) -> list[dict[str, Any]]:
-    """The layers of a run for a replay, in the order of time."""
-    topics: dict[str, list[Message]] = {}
-    for item in filter(is_layer, recording.published):
-        topics.setdefault(item.topic, []).append(item)
-    chosen = [thinned(items, MOST[KINDS[items[0].type]]) for _, items in sorted(topics.items())[:TOPICS]]
-    return as_data(sorted(itertools.chain(*chosen), key=lambda item: item.stamp))
-
-
-def as_data(items: Iterable[Message]) -> list[dict[str, Any]]:
-    """The layers in these messages, ready for JSON: meters, radians, milliseconds."""
-    found = []
-    for item in items:
-        kind = KINDS[item.type]
-        try:
-            message = item.message
-            data = _CONVERTERS[kind](message) if message.header.frame_id.lstrip("/") == FRAME else None
-        except Exception:  # a student's node sent invalid bytes, or values that are not in any world
-            continue
-        if data is not None:
-            about = {"stamp": round(item.stamp * 1000), "topic": item.topic[:TOPIC], "kind": kind}
-            found.append({**about, "data": data})
+def layers_of(recording: Recording, *, quiet: bool = False) -> list[Layer]:
+    """The layers of a run in the order of time: those that are always drawn, or the quiet ones."""
+    frames, found = FrameTree(recording.world), []
+    for item in _chosen(recording, quiet):
+        if _kind(item) == "frames":
+            frames.add(decoded(item))
+            found.extend(_frames(frames, item.stamp) if quiet else ())
+        else:
+            found.extend(_layers([item], frames))
     return found
 
 
-def _grid(message: Any) -> dict[str, Any] | None:
-    """A map as runs of equal cells, row by row; larger cells if it has too many; None if it is turned."""
-    info, origin = message.info, message.info.origin
-    count = info.width * info.height
-    if not count or len(message.data) != count or abs(origin.orientation.z) > 1e-3:
-        return None
-    step = math.ceil(math.sqrt(max(count / CELLS, 1)))
-    cells = np.array(message.data, dtype=np.int16).reshape(info.height, info.width)
-    for axis, size in enumerate(cells.shape):
-        cells = np.maximum.reduceat(cells, range(0, size, step), axis)
-    groups = itertools.groupby(np.clip(cells, -1, 100).ravel().tolist())
-    runs = [[value, len(list(group))] for value, group in groups]
-    place = _meters(origin.position.x, origin.position.y, info.resolution * step)
-    return {"width": cells.shape[1], "place": place, "runs": runs}
+def _chosen(recording: Recording, quiet: bool) -> list[Message]:
+    """Some messages of each topic, and the transforms, in the order of time."""
+    topics: dict[tuple[str, str], list[Message]] = {}
+    for item in recording.published:
+        kind = kind_of(item.topic, item.type)
+        if kind == "frames" or (kind is not None and (kind in QUIET) == quiet):
+            sender = item.sender if kind == "frames" else ""
+            topics.setdefault((item.topic, sender), []).append(item)
+    transforms = {key: items for key, items in topics.items() if _kind(items[0]) == "frames"}
+    others = [items for key, items in sorted(topics.items()) if key not in transforms][:TOPICS]
+    kept = [thinned(items, MOST[_kind(items[0])]) for items in (*transforms.values(), *others)]
+    return sorted(itertools.chain(*kept), key=lambda item: (item.stamp, _kind(item) != "frames"))
 
 
-def _plan(message: Any) -> list[list[float]]:
-    positions = (pose.pose.position for pose in thinned(message.poses, POINTS))
-    return [_meters(position.x, position.y) for position in positions]
+def quiet_layers(recording: Recording) -> dict[str, list[Layer]]:
+    """The quiet layers of a run for a replay: `seen`, clouds and images, and `beliefs`, poses and frames.
+
+    A pose or frame has its stamps (ms) and columns of whole numbers, all as differences. Without a world
+    there are only images.
+    """
+    layers = layers_of(recording, quiet=True)
+    if recording.world is None:
+        layers = [layer for layer in layers if layer["kind"] == "image"]
+    tracks: dict[tuple[str, str], list[Layer]] = {}
+    for layer in layers:
+        if layer["kind"] in UNITS:
+            tracks.setdefault((layer["topic"], layer.get("name", "")), []).append(layer)
+    seen = [layer for layer in layers if layer["kind"] not in UNITS]
+    return {"seen": seen, "beliefs": [_track(rows) for rows in tracks.values()]}
 
 
-def _goal(message: Any) -> list[float]:
-    position, turn = message.pose.position, message.pose.orientation
-    return _meters(position.x, position.y, 2 * math.atan2(turn.z, turn.w))
+def _track(rows: list[Layer]) -> Layer:
+    """The layers of one pose or frame as columns."""
+    kind, rows = rows[0]["kind"], thinned(rows, MOST[rows[0]["kind"]])
+    columns = zip(UNITS[kind], zip(*(row["data"] for row in rows), strict=True), strict=True)
+    return {
+        **{"topic": rows[0]["topic"], "kind": kind, "name": rows[0].get("name", "")},
+        "stamps": differences([row["stamp"] for row in rows]),
+        "columns": [differences([round(value * unit) for value in column]) for unit, column in columns],
+    }
 
 
-def _meters(*values: float) -> list[float]:
-    """The values, rounded. Raises ValueError if one is in no world, such as NaN."""
-    if not all(abs(value) < FAR for value in values):
-        raise ValueError(f"{values} is too far")
-    return [round(float(value), 4) for value in values]
+def _kind(item: TopicMessage) -> str:
+    return kind_of(item.topic, item.type) or ""
 
 
-_CONVERTERS = {"map": _grid, "plan": _plan, "goal": _goal}
+def _layers(items: Iterable[TopicMessage], frames: FrameTree) -> Iterator[Layer]:
+    """The layers in messages that are no transforms."""
+    for item in items:
+        kind = _kind(item)
+        try:
+            data = layer_data(kind, item.message, frames)
+        except Exception:  # a student's node sent invalid bytes, or values that are not in any world
+            continue
+        if data is not None:
+            yield {"stamp": round(item.stamp * 1000), "topic": item.topic[:NAME], "kind": kind, "data": data}
+
+
+def _frames(frames: FrameTree, stamp: float) -> Iterator[Layer]:
+    """The frames that are on the map."""
+    for name in frames.names[:FRAMES]:
+        place = frames.where(name)
+        if place is not None:
+            about = {"stamp": round(stamp * 1000), "topic": TF, "kind": "frames"}
+            yield {**about, "name": name[:NAME], "data": frame_data(place)}
 
 
 class NewestLayers:
-    """The newest layer of each topic while a run goes on."""
+    """The newest layer of each topic while a run continues. world: its world, which places the odom frame."""
 
-    def __init__(self) -> None:
+    def __init__(self, world: World | None = None) -> None:
         self._looked = 0  # at so many messages
-        self._newest: dict[str, Message] = {}
+        self._newest: dict[str, TopicMessage] = {}
+        self._drawn: dict[str, tuple[TopicMessage, list[Layer]]] = {}  # of each topic, with its message
+        self._frames = FrameTree(world)
+        self._changed = False  # what is always drawn, since the last call of `changed`
 
-    def update(self, recording: Recording) -> list[dict[str, Any]] | None:
-        """The layers, if there is a new one; None if nothing has changed."""
-        published = recording.published
-        new = {item.topic: item for item in published[self._looked :] if is_layer(item)}
-        self._looked = len(published)
-        self._newest |= new
-        return as_data(list(self._newest.values())[:TOPICS]) if new else None
+    def read(self, recording: Recording) -> None:
+        """Take note of what was published since the last call."""
+        new, self._looked = recording.published[self._looked :], len(recording.published)
+        for item in new:
+            self.add(item)
+
+    def add(self, item: TopicMessage) -> None:
+        """Take note of a message."""
+        if _kind(item) == "frames":
+            self._frames.add(decoded(item))
+        elif _kind(item):
+            self._newest[item.topic] = item
+            self._changed |= _kind(item) not in QUIET
+
+    def changed(self) -> list[Layer] | None:
+        """The layers that are always drawn, if there is a new one; None if nothing has changed."""
+        changed, self._changed = self._changed, False
+        loud = [topic for topic, item in self._newest.items() if _kind(item) not in QUIET]
+        return self._layers(loud[:TOPICS]) if changed else None
+
+    @property
+    def quiet(self) -> list[list[str]]:
+        """The topics whose layers the reader can ask for: pairs of name and kind."""
+        kinds = {TF: "frames"} if self._frames.names else {}
+        kinds |= {item.topic: _kind(item) for item in self._newest.values() if _kind(item) in QUIET}
+        return [[topic[:NAME], kind] for topic, kind in sorted(kinds.items())[:TOPICS]]
+
+    def moving(self, stamp: float, topics: Iterable[str]) -> list[Layer]:
+        """The newest quiet layers of these topics, at a time (s)."""
+        frames = _frames(self._frames, stamp) if TF in topics else ()
+        return [*self._layers(topics), *frames]
+
+    def _layers(self, topics: Iterable[str]) -> list[Layer]:
+        """Those of the newest messages; each message is converted once."""
+        found = []
+        for item in (self._newest[topic] for topic in topics if topic in self._newest):
+            if self._drawn.get(item.topic, (None,))[0] is not item:
+                self._drawn[item.topic] = item, list(_layers([item], self._frames))
+            found.extend(self._drawn[item.topic][1])
+        return found

@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 from array import array
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 import anywidget
@@ -23,11 +24,17 @@ from sim.view.strokes import visible_strokes
 from sim.view.world_data import world_data
 from sim.world import Scan, World
 
+with suppress(ImportError):  # Colab shows widgets that aren't its own only after this call
+    from google.colab import output
+
+    output.enable_custom_widget_manager()
+
 Command = dict[str, Any]
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PANEL = "application/vnd.ros2-course.robot+json"  # handled by jupyter/labextensions
 MAX_TOPIC_LENGTH = 300  # characters
 MOST_METERS = 1000.0  # of a point in the picture
+MAX_SHOWN = 20  # layers
 SPEEDS = (0.01, 1000.0)  # range of simulated seconds per second that a page may request
 
 
@@ -46,6 +53,8 @@ class LiveView(anywidget.AnyWidget):
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
     layers = traitlets.List().tag(sync=True)  # maps, plans and goals
+    quiet = traitlets.List().tag(sync=True)  # the layers that the page may ask for: topics and their kinds
+    shown = traitlets.List(traitlets.Unicode(), maxlen=MAX_SHOWN).tag(sync=True)  # those it asks for
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
     inputs = traitlets.List(traitlets.Unicode()).tag(sync=True)  # what nodes read besides: "keys", "points"
 
@@ -53,7 +62,9 @@ class LiveView(anywidget.AnyWidget):
         super().__init__(world=world and world_data(world), inputs=list(inputs))
         self.on_command: Callable[[Command], None] | None = None
         self._reports = reports  # whether the end shows the failure of the run
-        self._newest_layers = NewestLayers()
+        self._newest_layers = NewestLayers(world)
+        self._recording: Recording | None = None
+        self._last_frame = b""
         self._display: DisplayHandle | None = None
         self.on_msg(self._on_message)
 
@@ -67,13 +78,30 @@ class LiveView(anywidget.AnyWidget):
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
         """Show all bodies of the world at `stamp` (s); the page stores their trails."""
-        self.send({}, [pack_frame(stamp, poses, scan)])
+        self._last_frame = pack_frame(stamp, poses, scan)
+        self._send_frame()
+
+    @traitlets.observe("shown")
+    def _send_frame(self, _: Any = None) -> None:
+        """Send the newest frame, with the layers that the page asks for: also to a run that is paused."""
+        layers = []
+        if self._recording is not None and self.shown:
+            self._newest_layers.read(self._recording)
+            layers = self._newest_layers.moving(self._recording.stamp, self.shown)
+        if self._last_frame:
+            self.send({"layers": layers}, [self._last_frame])
 
     def state(self, state: dict[str, Any]) -> None:
         """Show the status of the run; see `Picture.state` in sim/ros/play."""
         recording, speed = state["recording"], state["speed"]
-        self.layers = self._newest_layers.update(recording) or self.layers
-        more = {"speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
+        self._recording = recording
+        self._newest_layers.read(recording)
+        self.layers = self._newest_layers.changed() or self.layers
+        self.quiet = self._newest_layers.quiet
+        topic = state.get("topic")
+        images = self._newest_layers.moving(recording.stamp, [topic["name"]]) if topic else []
+        more = {"topic": topic | {"image": next(_images(images), None)}} if topic else {}
+        more |= {"speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
         if "drawing" in state:
             more |= {"drawing": None, "drawn": visible_strokes(state["drawing"])}
         self.status = {name: value for name, value in {**state, **more}.items() if name != "recording"}
@@ -112,6 +140,10 @@ class LiveView(anywidget.AnyWidget):
             self.on_command(command)
 
 
+def _images(layers: Sequence[dict[str, Any]]) -> Iterator[Any]:
+    return (layer["data"] for layer in layers if layer["kind"] == "image")
+
+
 def pack_frame(stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> bytes:
     """A frame as the page parses it, in float32.
 
@@ -135,7 +167,9 @@ def parse_command(content: Any) -> Command | None:
         return {name: float(value)}
     if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop", "graph") and value is True):
         return {name: value}
-    if name == "topic" and isinstance(value, str) and len(value) <= MAX_TOPIC_LENGTH:
+    if name == "topic" and _is_topic(value):
+        return {name: value}
+    if name == "shown" and isinstance(value, list) and len(value) <= MAX_SHOWN and all(map(_is_topic, value)):
         return {name: value}
     if name == "drive" and isinstance(value, list) and len(value) == 2:
         forward, left = value
@@ -146,6 +180,10 @@ def parse_command(content: Any) -> Command | None:
     if name == "point" and is_pair and all(_between(part, -MOST_METERS, MOST_METERS) for part in value):
         return {name: [float(part) for part in value]}
     return None
+
+
+def _is_topic(value: Any) -> bool:
+    return isinstance(value, str) and len(value) <= MAX_TOPIC_LENGTH
 
 
 def _between(value: Any, least: float, most: float) -> bool:

@@ -54,7 +54,7 @@ def runs_side_by_side(usual: Recording, other: Recording) -> str:
 
 
 def _rows(recording: Recording) -> list[Row]:
-    """What happened, in order: callbacks when they began, what was sent, the errors."""
+    """Return what happened, in order: callbacks when they began, what was sent, the errors."""
     ran = Counter((run.stamp, run.node) for run in recording.callbacks)
     sent: dict[tuple[float, str], list[str]] = {}
     for message in recording.messages():

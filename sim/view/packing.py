@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import json
 import zlib
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 
@@ -18,3 +20,8 @@ def deflated(data: dict[str, Any]) -> str:
 def inflated(text: str) -> dict[str, Any]:
     """The inverse of `deflated`."""
     return dict(json.loads(zlib.decompress(base64.b64decode(text), -15)))
+
+
+def differences(values: Sequence[int]) -> list[int]:
+    """Whole numbers as differences, the first one from 0: they compress well."""
+    return [*values[:1], *(after - now for now, after in pairwise(values))]

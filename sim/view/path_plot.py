@@ -51,7 +51,7 @@ def plot_path(recording: Recording) -> Plot:
         if body.kind == "turtle":
             if recording.stamp - track[-1].stamp < MAX_POSE_GAP:
                 color = TURTLES[bodies.index(body) % len(TURTLES)]
-                _draw(axes, body, track[-1], color, 1.0, body.name)
+                draw_body(axes, body, track[-1], color, 1.0, body.name)
             continue
         if body.kind == "robot":
             color = ROBOTS[robots.index(body) % len(ROBOTS)]
@@ -61,9 +61,9 @@ def plot_path(recording: Recording) -> Plot:
             axes.plot(*path, **look, label="path" if first else body.name)
         else:
             color = KINDS.get(body.kind, MUTED)
-        _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)
+        draw_body(axes, body, track[0], MUTED, 0.45, "start" if first else None)
         end = f"end, {track[-1].stamp:.3g} s" if first else None
-        _draw(axes, body, track[-1], color, 0.45 if body.kind == "robot" else 0.9, end)
+        draw_body(axes, body, track[-1], color, 0.45 if body.kind == "robot" else 0.9, end)
     if recording.tip:
         path = [pose.x for pose in recording.tip], [pose.y for pose in recording.tip]
         axes.plot(*path, color=ROBOTS[0], linewidth=1.8, label="tip's path")
@@ -126,8 +126,8 @@ def draw_world(axes: Axes, world: World) -> None:
         axes.annotate(name, (x, y), (4, 3), textcoords="offset points", fontsize=7, color=SOLID)
 
 
-def _draw(axes: Axes, body: Body, pose: Pose, color: str, alpha: float, label: str | None) -> None:
-    """Draw a body, with its heading if it is a robot."""
+def draw_body(axes: Axes, body: Body, pose: Pose, color: str, alpha: float, label: str | None) -> None:
+    """Draw a moving body at a pose, with its heading if it is a robot."""
     look = {"facecolor": color, "edgecolor": color, "alpha": alpha, "label": label}
     if body.outline:
         axes.add_patch(Polygon(placed(body.outline, *pose[1:]), **look))

@@ -11,15 +11,14 @@ import json
 import math
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
 from typing import Any
 
 from sim.evidence import Recording, rate, stamps
 from sim.view.body_tracks import body_tracks, pose_at, presence_intervals
 from sim.view.graph_data import graph_data
 from sim.view.last_event import last_event
-from sim.view.layers import layers_of
-from sim.view.packing import deflated
+from sim.view.layers import layers_of, quiet_layers
+from sim.view.packing import deflated, differences
 from sim.view.replay_values import inspected, strip_of
 from sim.view.strokes import all_strokes, thinned
 from sim.view.world_data import world_data
@@ -61,6 +60,7 @@ def pack(recording: Recording, speed: float, moments: Sequence[Moment] = (), pla
         world = world_data(recording.world, recording.bodies)
         data |= {"world": world, **motion(recording), "scans": list(_scans(recording))}
         data |= {"layers": layers_of(recording)}
+    data |= quiet_layers(recording)
     if recording.drawing is not None:
         data |= {"drawing": all_strokes(recording.drawing)}
     topics = _topics(recording)
@@ -75,7 +75,7 @@ def run_key(recording: Recording) -> str:
 
 
 def replay_end(recording: Recording, moments: Sequence[Moment] = ()) -> float:
-    """When the replay ends (s): soon after the last thing that happens, or with the run."""
+    """Return when the replay ends (s): soon after the last thing that happens, or with the run."""
     last = max([last_event(recording), *(stamp for stamp, _ in moments)])
     end = run_end(recording)
     return min(last + LEAD, end) if end - last > QUIET else end
@@ -124,7 +124,7 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
             "start": scan.angle_min,
             "step": scan.angle_increment * stride,
             "far": scan.range_max,
-            "ranges": _differences([_range(value) for value in scan.ranges[::stride]]),
+            "ranges": differences([_range(value) for value in scan.ranges[::stride]]),
         }
 
 
@@ -217,8 +217,4 @@ def _topics(recording: Recording) -> list[list[str]]:
 
 
 def _scaled_differences(values: Iterable[float], unit: float) -> list[int]:
-    return _differences([round(value * unit) for value in values])
-
-
-def _differences(values: Sequence[int]) -> list[int]:
-    return [values[0], *(after - now for now, after in pairwise(values))] if values else []
+    return differences([round(value * unit) for value in values])

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import bisect
 import json
+import math
 import zlib
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
 from sim.evidence import Message, Recording, stamps
-from sim.evidence.message_text import decoded, field_lines, single_numbers, text_lines
+from sim.evidence.message_text import decoded, field_lines, numbers_to_plot, single_numbers, text_lines
 from sim.evidence.readings import readings
 from sim.view.body_tracks import pose_at
+from sim.view.packing import differences
 from sim.view.strokes import thinned
 
 SAMPLES = 300  # moments of the strip
 MESSAGES = (120, 60, 30, 15, 6)  # stored of each topic: the first number whose texts are within the limit
 TEXT_BYTES = 16_000  # limit of the compressed texts of all topics
 MAX_CURVES = 2
+ORDER = "warehouse_msgs/msg/Order"
 ROBOT = "/robot"  # the node whose scans are read
 
 
@@ -29,33 +32,43 @@ def strip_of(recording: Recording) -> dict[str, Any]:
     """
     if recording.world is None:
         return {"labels": [], "stamps": [], "values": []}
-    newest = _newest(recording)
+    newest, orders = _newest(recording), _orders(recording)
     moments = thinned(_moments(recording), SAMPLES)
-    rows = [dict(_readings_at(recording, moment, newest)) for moment in moments]
+    rows = [dict(_readings_at(recording, moment, newest, orders)) for moment in moments]
     labels = list(dict.fromkeys(label for row in reversed(rows) for label in row))
     columns = [[row.get(label, "") for row in rows] for label in labels]
     whole = [round(moment * 1000) for moment in moments]
-    differences = [*whole[:1], *(after - now for now, after in pairwise(whole))]
-    return {"labels": labels, "stamps": differences, "values": [_changes(column) for column in columns]}
+    values = [_changes(column) for column in columns]
+    return {"labels": labels, "stamps": differences(whole), "values": values}
 
 
 def _moments(recording: Recording) -> list[float]:
-    """When the strip may change."""
+    """Return when the strip may change."""
     if recording.path:
         return stamps(recording.path)
     return sorted({item.stamp for item in recording.published})
 
 
-def _readings_at(recording: Recording, moment: float, newest: Callable[..., Any]) -> Any:
+def _orders(recording: Recording) -> list[tuple[float, Any]]:
+    """The messages of a warehouse's desk, with their stamps."""
+    if recording.world.warehouse is None:
+        return []
+    return [(item.stamp, decoded(item)) for item in recording.messages("/orders") if item.type == ORDER]
+
+
+def _readings_at(
+    recording: Recording, moment: float, newest: Callable[..., Any], orders: Sequence[tuple[float, Any]]
+) -> Any:
     path, world = recording.path, recording.world
     pose = pose_at(path, moment)[1:4] if path and world.driven_body is not None else None
+    placed = [order for stamp, order in orders if order is not None and stamp <= moment + 1e-6]
     contacts = [contact for contact in recording.contacts if contact.stamp <= moment + 1e-6]
 
     def at(topic: str, *kinds: str) -> Any:
         return newest(moment, topic, *kinds)
 
     scan = newest(moment, "/scan", "sensor_msgs/msg/LaserScan", sender=ROBOT)
-    return readings(world, pose, at, None if scan is None else scan.ranges, contacts)
+    return readings(world, pose, at, None if scan is None else scan.ranges, contacts, placed)
 
 
 def _newest(recording: Recording) -> Callable[..., Any]:
@@ -80,8 +93,9 @@ def _changes(values: Sequence[str]) -> list[str | int]:
 def inspected(recording: Recording, topics: Sequence[str]) -> list[dict[str, Any]]:
     """For each topic its type, the stamps (ms) and texts of some messages, evenly spaced, and its curves.
 
-    Each text is a list of lines; a line is 0 if it is that of the message before. curves: pairs of a field
-    and the index of its line, of numbers that change. The compressed size of all is limited.
+    Each text is a list of lines; a line is 0 if it is that of the message before. curves: of numbers that
+    change, pairs of a field and the index of its line, or of a joint's name and its value in each message,
+    None where the message has another driver's joints. The compressed size of all is limited.
     """
     kinds = recording.topics
     for most in MESSAGES:
@@ -111,7 +125,17 @@ def _changed_lines(now: list[str], after: list[str]) -> list[str | int]:
 def _curves(messages: Sequence[Any], lines: Sequence[list[str]]) -> list[list[Any]]:
     if not messages or len({len(text) for text in lines}) > 1:
         return []
-    known = [field for field, _ in field_lines(messages[0])][: len(lines[0])]
-    fields = [(field, known.index(field)) for field, _ in single_numbers(messages[0]) if field in known]
-    changing = [(field, index) for field, index in fields if len({text[index] for text in lines}) > 1]
-    return [[field, index] for field, index in (changing or fields)[:MAX_CURVES]]
+    known = {field: line for line, (field, _) in enumerate(field_lines(messages[0])) if line < len(lines[0])}
+    rows = [dict(numbers_to_plot(message)) for message in messages]
+    fields = [field for field in dict.fromkeys(field for row in rows for field in row)
+              if field in known or field not in dict(single_numbers(messages[0]))]
+    changing = [field for field in fields if len({_rounded(row[field]) for row in rows if field in row}) > 1]
+    return [
+        [field, known.get(field, [_rounded(row.get(field, math.nan)) for row in rows])]
+        for field in (changing or fields)[:MAX_CURVES]
+    ]
+
+
+def _rounded(value: float) -> float | None:
+    """The value as texts show it; None for NaN and infinities."""
+    return float(f"{value:.4g}") if math.isfinite(value) else None

@@ -1,4 +1,4 @@
-"""A small SVG of a run: its world with paths, its graph, or its log lines. Equal runs give equal bytes.
+"""A small SVG of a run: its world with paths, or its graph. Equal runs give equal bytes.
 
 The colors are legible on light and on dark pages. The SVG has no scripts, fonts or addresses.
 """
@@ -14,14 +14,12 @@ from sim.evidence import Pose, Recording
 from sim.view.body_tracks import body_tracks, extent_radius
 from sim.view.graph_data import graph_data
 from sim.view.plot import KINDS, ROBOTS, TURTLES
-from sim.view.replay_data import run_end
 from sim.view.strokes import visible_strokes
 from sim.world import Body
 from sim.world.obstacles import placed
 
 WIDTH, HEIGHT, MARGIN = 320, 180, 12  # px
 WALL, SOLID, GROUND, GAP = "#8a95a1", "#a9b3bd", "rgba(128,128,128,.12)", "#d9544f"
-LEVELS = {"DEBUG": SOLID, "INFO": "#3f8fd2", "WARN": "#d99a2b", "ERROR": GAP, "FATAL": GAP}
 ROBOT = 7.0  # px, the least radius of a robot
 WIDE = 100.0  # inches: graphs are drawn from left to right
 STEP = 2.0  # px between the points of a path
@@ -29,10 +27,10 @@ Point = tuple[float, float]
 
 
 def thumbnail(recording: Recording, drawing: str = "world") -> str:
-    """The SVG. drawing: "world", "graph" or "log"; raises ValueError for another one."""
-    draw = {"world": _world, "graph": _graph, "log": _log}.get(drawing)
+    """The SVG. drawing: "world" or "graph"; raises ValueError for another one."""
+    draw = {"world": _world, "graph": _graph}.get(drawing)
     if draw is None:
-        raise ValueError(f'drawing must be "world", "graph" or "log"; it is {drawing!r}')
+        raise ValueError(f'drawing must be "world" or "graph"; it is {drawing!r}')
     ground = f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{GROUND}"/>'
     lines = "\n".join([ground, *draw(recording)])
     size = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}"'
@@ -151,21 +149,6 @@ def _box(box: dict[str, Any]) -> Iterable[str]:
         f'<text x="{left + width // 2}" y="{top + height // 2 + 4}" text-anchor="middle" fill="{ink}" '
         f'font-family="sans-serif" font-weight="bold" font-size="12">{words}</text>'
     )
-
-
-def _log(recording: Recording) -> Iterable[str]:
-    names = list(dict.fromkeys(line.node for line in recording.logs))
-    gap = (HEIGHT - 2 * MARGIN) / max(len(names), 1)
-    left, end = 3 * MARGIN, run_end(recording)
-    for row, name in enumerate(names):
-        middle = MARGIN + gap * (row + 0.5)
-        tick = min(gap * 0.3, 26.0)
-        yield _line(f"M{left},{_short(middle)} {WIDTH - MARGIN},{_short(middle)}", GROUND, 2)
-        for line in recording.logs:
-            if line.node == name:
-                x = left + (WIDTH - left - MARGIN) * line.stamp / end
-                ends = f"M{_short(x)},{_short(middle - tick)} {_short(x)},{_short(middle + tick)}"
-                yield _line(ends, LEVELS.get(line.level, SOLID), 4)
 
 
 def _pairs(values: Sequence[float]) -> list[str]:

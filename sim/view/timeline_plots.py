@@ -148,8 +148,10 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
         look |= {"markersize": 4, "drawstyle": "steps-post" if command else "default"}
         times, drawn = _broken(*zip(*points, strict=True))
         axes.plot(times, drawn, **look, label=label)
-        curve = series(label, times, drawn, style="step" if command else "line")
-        panels.setdefault(of_curve if unit is None else unit, []).append(curve)
+        curves = panels.setdefault(of_curve if unit is None else unit, [])
+        # The page counts the colors of a panel from that of its first curve: no two panels begin with one.
+        first = len(panels) - 1 if not curves else curves[0]["color"]
+        curves.append(series(label, times, drawn, style="step" if command else "line", color=first))
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))

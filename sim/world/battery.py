@@ -65,7 +65,7 @@ class Battery:
 
     @property
     def is_empty(self) -> bool:
-        """Whether the charge is 0, which turns the motors off."""
+        """Return whether the charge is 0, which turns the motors off."""
         return self.charge <= 0.0
 
     def update(self, seconds: float, position: Point, motion: Odometry, lever: float) -> None:

@@ -53,7 +53,7 @@ class ContactLog:
 
     @property
     def is_touched(self) -> bool:
-        """Whether something touches the robot now."""
+        """Return whether something touches the robot now."""
         return bool(self._touching)
 
     @property

@@ -51,7 +51,7 @@ class LidarModel(Model):
         return math.tau / self.rays
 
     def is_working(self, time: float) -> bool:
-        """Whether it delivers scans at this time (s)."""
+        """Return whether it delivers scans at this time (s)."""
         return not any(begin <= time < end for begin, end in self.silent)
 
     def mounted_at(self, robot: LidarPose) -> LidarPose:

@@ -76,13 +76,13 @@ class MobileRobot(Drive):
         return list(self.log.contacts)
 
     def command(self, v: float, w: float) -> None:
-        """As `Drive.command`, but a robot with an empty battery stops."""
+        """Work like `Drive.command`, but a robot with an empty battery stops."""
         super().command(v, w)
         if self.battery and self.battery.is_empty:
             super().command(0.0, 0.0)
 
     def roll(self) -> None:
-        """As `Drive.roll`, with what is lost while something touches the robot."""
+        """Work like `Drive.roll`, with what is lost while something touches the robot."""
         self.odometry_error.update(self._v, self._w, self.log.is_touched)
         super().roll()
 
@@ -97,7 +97,7 @@ class MobileRobot(Drive):
 
     @property
     def lidar_works(self) -> bool:
-        """Whether its lidar delivers scans now."""
+        """Return whether its lidar delivers scans now."""
         return self._context.world.lidar.is_working(self._context.time)
 
     def scan(self) -> np.ndarray:

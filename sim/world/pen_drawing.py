@@ -25,7 +25,7 @@ class Stroke:
     erased: float | None = None
 
     def is_visible(self, stamp: float) -> bool:
-        """Whether any of it is visible at `stamp` (s)."""
+        """Return whether any of it is visible at `stamp` (s)."""
         return self.points[0][0] <= stamp and (self.erased is None or stamp < self.erased)
 
     def until(self, stamp: float) -> list[tuple[float, float]]:

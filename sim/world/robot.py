@@ -21,7 +21,7 @@ ROUTE = "[[x, y], ...], two or more corners (meters), each different from the on
 
 
 def is_loop(route: tuple[Point, ...]) -> bool:
-    """Whether corners form a closed route; no corners, which mean no route, are valid too."""
+    """Return whether corners form a closed route; no corners, which mean no route, are valid too."""
     return not route or (len(route) >= 2 and all(a != b for a, b in ring(route)))
 
 

@@ -43,7 +43,7 @@ class Route:
 
 
 def _projection(start: Point, end: Point, x: float, y: float) -> float:
-    """How far along a leg its nearest point to (x, y) is, m."""
+    """Return how far along a leg its nearest point to (x, y) is, m."""
     ux, uy = end[0] - start[0], end[1] - start[1]
     length = math.hypot(ux, uy)
     return min(max(((x - start[0]) * ux + (y - start[1]) * uy) / length, 0.0), length)

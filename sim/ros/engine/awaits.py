@@ -13,8 +13,9 @@ from functools import partial
 from types import CellType, FrameType, FunctionType, GeneratorType, ModuleType
 from typing import Any, NamedTuple
 
-from rclpy.action import ActionServer
+from rclpy.action import ActionClient, ActionServer
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -90,7 +91,10 @@ def _students_frame(chain: list[Any]) -> FrameType | None:
 
 
 def _why_in_vain(waiting: Awaiting) -> str:
-    """Why a future is never completed, as far as that is certain; else ""."""
+    """Return why a future is never completed, as far as that is certain; else ""."""
+    owners = [getattr(each, "__self__", None) for each in waiting.future._callbacks]
+    if any(isinstance(owner, Client | ActionClient) for owner in owners):
+        return ""  # a response completes it, if a server takes the request
     holders = [each for each in gc.get_referrers(waiting.future) if not _is_own(each, waiting)]
     held = holders or weakref.getweakrefs(waiting.future)
     if not held or not _source_completes(waiting):
@@ -107,14 +111,14 @@ def _why_in_vain(waiting: Awaiting) -> str:
 
 
 def _is_own(holder: Any, waiting: Awaiting) -> bool:
-    """Whether it is the awaiting code itself with its variables, or this look at it."""
+    """Return whether it is the awaiting code itself with its variables, or this look at it."""
     frames = [getattr(each, "cr_frame", None) or each.gi_frame for each in waiting.chain]
     own = (waiting, *waiting.chain, *(frame.f_locals for frame in frames))
     return isinstance(holder, FrameType) or any(holder is each for each in own)
 
 
 def _source_completes(waiting: Awaiting) -> bool:
-    """Whether code that may have the future completes any one; a plain future is completed by no library."""
+    """Return whether code that may have the future completes any; no library completes a plain future."""
     frame = _students_frame(waiting.chain)
     texts = [] if frame is None else ["".join(linecache.getlines(file)) for file in _files(frame)]
     return not any(texts) or any(f".{name}" in text for text in texts for name in _COMPLETES)

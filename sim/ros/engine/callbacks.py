@@ -32,7 +32,7 @@ class Work(NamedTuple):
 
 @dataclass(slots=True)
 class TaskState:
-    """What a run stores with a task: the callback that it is, if any; and how it goes on."""
+    """A run's data on a task: the callback that it is, if any; and how it goes on."""
 
     running: RunningCallback | None = None
     seen_wakes: int | None = None  # of its executor, when it last waited
@@ -40,7 +40,7 @@ class TaskState:
 
 
 def state_of(task: Task) -> TaskState:
-    """What the run stores with a task."""
+    """Return what the run stores with a task."""
     state = task.__dict__.get("_sim")
     if state is None:
         state = task._sim = TaskState()
@@ -48,7 +48,7 @@ def state_of(task: Task) -> TaskState:
 
 
 def is_coroutine_function(function: Any) -> bool:
-    """As `inspect.iscoroutinefunction`, which is slow, for the functions that callbacks mostly are."""
+    """Work like `inspect.iscoroutinefunction`, which is slow, for the functions that callbacks mostly are."""
     code = getattr(function, "__code__", None)
     return (
         bool(code.co_flags & inspect.CO_COROUTINE)
@@ -194,7 +194,7 @@ class Callbacks:
 
 
 def _position(task: Task) -> tuple[int, ...]:
-    """Where a suspended coroutine is, through everything it awaits."""
+    """Return where a suspended coroutine is, through everything it awaits."""
     place, coroutine = [], task._handler
     while inspect.iscoroutine(coroutine) and coroutine.cr_frame is not None:
         place.append(coroutine.cr_frame.f_lasti)

@@ -29,7 +29,7 @@ class StudentStream:
         self._original, self._channel = original, channel
 
     def write(self, text: str) -> int:
-        """As `TextIO.write`."""
+        """Work like `TextIO.write`."""
         run = engine()
         if run is None:
             return self._original.write(text)
@@ -37,7 +37,7 @@ class StudentStream:
         return len(text)
 
     def flush(self) -> None:
-        """As `TextIO.flush`; a notebook's stream would wait for a thread, which a fiber can't do."""
+        """Work like `TextIO.flush`; a notebook's stream would wait for a thread, which a fiber can't do."""
         if engine() is None:
             self._original.flush()
 
@@ -45,7 +45,7 @@ class StudentStream:
         """Does nothing: the stream is the kernel's, not the student's."""
 
     def writelines(self, lines: Iterable[str]) -> None:
-        """As `TextIO.writelines`."""
+        """Work like `TextIO.writelines`."""
         for line in lines:
             self.write(line)
 

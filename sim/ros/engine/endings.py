@@ -22,7 +22,7 @@ BLOCKED_AFTER = SECOND  # of waiting; until then a callback is just slow
 
 
 def conclusion(engine: Engine, over: int | None) -> Ended:
-    """How a run without a hang ended. over: when the last program had ended, or None."""
+    """Return how a run without a hang ended. over: when the last program had ended, or None."""
     now, errors = engine.recorder.now, engine.recording.errors
     if errors:
         first = errors[0]
@@ -37,7 +37,7 @@ def conclusion(engine: Engine, over: int | None) -> Ended:
 
 
 def blocked(engine: Engine) -> str | None:
-    """Which callback waits for something that can't happen, in a sentence; None if none does."""
+    """Return which callback waits for something that can't happen, in a sentence; None if none does."""
     executors = [waiter.executor for waiter in engine.waiters.all]
     return (
         _blocked_call(engine)

@@ -111,11 +111,11 @@ class Engine(Scheduler):
         return self.transport.events.run_deadlines(self.now)
 
     def others_due(self, within: Nanoseconds) -> bool:
-        """As `Scheduler`; messages arrive, too."""
+        """Work like `Scheduler`; messages arrive, too."""
         return super().others_due(within) or self.transport.events.next_due(NEVER) <= self.now + within
 
     def can_go_on(self) -> bool:
-        """Whether there is still something to do at this moment."""
+        """Return whether there is still something to do at this moment."""
         runnable = any(not fiber.done and fiber.runnable() for fiber in self.fibers)
         return runnable or self.transport.events.next_due(NEVER) <= self.now
 
@@ -203,11 +203,11 @@ class Engine(Scheduler):
         return program
 
     def lives(self, program: RunningProgram) -> bool:
-        """Whether a program still has something to run."""
+        """Return whether a program still has something to run."""
         return any(fiber.process is program and not fiber.done for fiber in self.fibers)
 
     def busy_loop_found(self) -> None:
-        """As `Scheduler`; it is recorded."""
+        """Work like `Scheduler`; it is recorded."""
         self.recorder.busy_loop(self.current, student_line(sys._getframe()))
 
     def fiber_ended(self, fiber: Fiber) -> None:
@@ -226,7 +226,7 @@ class Engine(Scheduler):
             else:
                 self.recorder.error(error, fiber.name)
             if fiber is program.main and not (program.from_course or program.bundled):
-                self.recorder.end_error(error, fiber.name)
+                self.recorder.end_error(error, fiber.name, has_main=not isinstance(program.target, type))
             self.current = None
         if fiber is program.main or (program.main.done and not self.lives(program)):
             threads = [f for f in self.fibers if f.process is program and not f.done]
@@ -240,7 +240,7 @@ class Engine(Scheduler):
 
     @property
     def fault(self) -> Ended | None:
-        """What stops the run as soon as no program can go on at this moment, or None."""
+        """Return what stops the run as soon as no program can go on at this moment, or None."""
         if self._fault is None and self.livelock is not None:
             return Ended("livelock", self.recorder.now, f"{self.livelock}.")
         return self._fault

@@ -46,7 +46,7 @@ UNINTERRUPTIBLE = str(Path(__file__).parents[2]), "<frozen "
 
 
 def _can_switch(frame: FrameType | None) -> bool:
-    """Whether other fibers may run while student code is there, in its own code or in a library's."""
+    """Return whether other fibers may run while student code is there, in its own code or in a library's."""
     while frame is not None and is_library(frame.f_code.co_filename):
         if frame.f_code.co_filename.startswith(UNINTERRUPTIBLE):
             return False
@@ -113,7 +113,7 @@ class Guard:
 
     @property
     def waiting_limit(self) -> float:
-        """How long, in seconds of wall time, a stretch of student code may wait without computing."""
+        """Return how long, in seconds of wall time, a stretch of student code may wait without computing."""
         return (0.1 if self.impatient or self.interrupted else 1.0) * WAITING_LIMIT
 
     def waited(self, what: str) -> NoReturn:
@@ -194,7 +194,7 @@ class Guard:
         raise self.hang
 
     def _can_wait(self, fiber: Fiber, frame: FrameType | None) -> bool:
-        """Whether it may be a busy loop that polls what others do. If so, it waits until they have run."""
+        """Return whether it may be a busy loop that polls others. If so, it waits until they have run."""
         scheduler, program = self._scheduler, fiber.process
         others = [other for other in scheduler.fibers if other.process is program and other is not fiber]
         ends = self.hang is not None or self.impatient or self.interrupted or self._tries > BUSY_TRIES

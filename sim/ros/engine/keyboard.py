@@ -14,7 +14,7 @@ def keyboard(lines: Sequence[str] | None) -> TextIO:
 
 class _NoTerminal(io.TextIOBase):
     def fileno(self) -> int:
-        """As `TextIO.fileno`. Raises UnsupportedOperation."""
+        """Work like `TextIO.fileno`. Raises UnsupportedOperation."""
         raise io.UnsupportedOperation(
             "a run has no terminal whose keys can be read one by one; give the program lines, as in "
             'run(Process(main, stdin=["first line", "second line"])) for input(), or drive in the picture of '
@@ -30,7 +30,7 @@ class _NoInput(_NoTerminal):
     """Raises when it is read, where a robot's terminal would wait forever."""
 
     def read(self, size: int | None = -1, /) -> str:
-        """As `TextIO.read`. Raises RuntimeError."""
+        """Work like `TextIO.read`. Raises RuntimeError."""
         raise RuntimeError(
             "input() waits for a person at the keyboard; give it lines, as in run(Process(main, "
             'stdin=["first line", "second line"])), or let the node get its input from topics and parameters'

@@ -35,14 +35,20 @@ class MainLoop:
         self._all_exited: Nanoseconds | None = None
 
     def run(self, last: Nanoseconds, enough: Callable[[], bool] = never) -> Ended | None:
-        """Do all that is due up to `last`, or until `enough()`; returns why the run has ended, if it has."""
-        while self.due <= last and not enough():
+        """Do all that is due up to `last`, or until `enough()`; returns why the run has ended, if it has.
+
+        `enough` is called between steps: one that is true from the start still lets the first step happen, so
+        that a play makes progress on any machine.
+        """
+        while self.due <= last:
             self._engine.step(self.due)
             ended = self._ended()
             if ended is not None:
                 self._engine.note_unfinished()
                 return ended
             self.due = self._engine.next_moment(self._end)
+            if enough():
+                break
         return None
 
     def _ended(self) -> Ended | None:

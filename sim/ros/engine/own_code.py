@@ -19,7 +19,7 @@ EXTENSIONS = tuple(importlib.machinery.EXTENSION_SUFFIXES)
 
 
 class OwnCode:
-    """What belongs to these programs before a run starts.
+    """The code and objects of these programs before a run starts.
 
     functions: all that exist, in classes, in other functions and behind decorators, too. compiled: the names
     of modules that are not in Python.

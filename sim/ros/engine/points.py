@@ -25,7 +25,7 @@ _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 class Access(NamedTuple):
-    """What a statement does with an attribute of an object, or with a name that functions share.
+    """A statement's access to an attribute of an object, or to a name that functions share.
 
     base: the variable that holds the object; "" for a shared name. method: the one that is called.
     """

@@ -43,7 +43,7 @@ def point(line: int) -> None:
 
 
 class Observer:
-    """What a search wants to know about its runs, all of which have the same programs.
+    """A search's observations of its runs, all of which have the same programs.
 
     unseen: code of the programs that has no points, and why, if a program had threads. logs: whether runs
     have a log. log: that of the last one.
@@ -92,7 +92,7 @@ class Preemption:
 
     @staticmethod
     def is_needed(order: str) -> bool:
-        """Whether a run in this order has preemptions or a log."""
+        """Return whether a run in this order has preemptions or a log."""
         return bool(order) or (_observer is not None and _observer.logs)
 
     def begin(self) -> None:

@@ -24,7 +24,7 @@ class Process:
     host: the computer that it runs on, where the run has a network; None for "laptop". The robot is "robot".
     """
 
-    target: Callable[..., Any]
+    target: Callable[..., Any] | str
     name: str | None = None
     namespace: str | None = None
     remappings: Sequence[tuple[str, str]] = ()
@@ -76,7 +76,7 @@ def as_process(target: Any, caller: str = "run") -> Process:
 
 
 def program_name(target: Any) -> str:
-    """What a class or function is called, however a student's class answers that question."""
+    """Return what a class or function is called, however a student's class answers that question."""
     try:
         return str(getattr(target, "__name__", None) or type(target).__name__)
     except Exception:

@@ -30,7 +30,7 @@ def kind_of(entry: Any) -> str:
 
 
 def label_of(entry: Any) -> str:
-    """How an entity is called: a topic's or service's name, or a timer's callback."""
+    """Return how an entity is called: a topic's or service's name, or a timer's callback."""
     entity = entry[1]
     for name in ("topic_name", "srv_name", "service_name", "_action_name"):
         found = getattr(entity, name, None)
@@ -40,7 +40,7 @@ def label_of(entry: Any) -> str:
 
 
 def may_be_ready(entry: Any) -> bool:
-    """Whether an entity has work, as far as that can be seen without taking it."""
+    """Return whether an entity has work, as far as that can be seen without taking it."""
     kind, entity = kind_of(entry), entry[1]
     if kind == "timer":
         return entity.handle.is_timer_ready()

@@ -205,7 +205,7 @@ class ReadyScan:
     def _arrived(
         self, endpoint: Any, take: Callable[[Any], dict], through: Callable[[ServiceTransport, Any], dict]
     ) -> dict[str, Any]:
-        """What has arrived at an endpoint of an action. To look takes 60 us, so it does only if need be."""
+        """Return what has arrived at an endpoint of an action. Looking takes 60 us, so only if need be."""
         network, record = self._transport.services, endpoint._sim
         if network is not None:
             return through(network, endpoint)

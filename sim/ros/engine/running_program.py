@@ -48,22 +48,22 @@ class SharedContext:
         process.set_log_levels()
 
     def ok(self) -> bool:
-        """As rcl's context."""
+        """Work like rcl's context."""
         return self.alive
 
     def shutdown(self) -> None:
-        """As rcl's context, for this process alone."""
+        """Work like rcl's context, for this process alone."""
         if not self.alive:
             raise _rclpy.RCLError("failed to shutdown: rcl_shutdown already called on the given context")
         self.alive = False
         self.process.scheduler.wake_all()
 
     def get_domain_id(self) -> int:
-        """As rcl's context."""
+        """Work like rcl's context."""
         return self.process.rclpy.context.get_domain_id()
 
     def destroy_when_not_in_use(self) -> None:
-        """As rcl's context, for this process alone."""
+        """Work like rcl's context, for this process alone."""
         self.alive = False
 
     def __enter__(self) -> SharedContext:
@@ -74,7 +74,7 @@ class SharedContext:
 
 
 def shared_context(context: Context) -> SharedContext:
-    """What a context that was initialized in a run has in place of rcl's handle."""
+    """Return what a context that was initialized in a run has in place of rcl's handle."""
     return context._Context__context
 
 
@@ -211,7 +211,7 @@ class RunningProgram:
         rclpy.try_shutdown()
 
     def shut_down(self) -> None:
-        """What rclpy's handler of SIGINT does before Python's own one raises KeyboardInterrupt.
+        """Do what rclpy's handler of SIGINT does before Python's own one raises KeyboardInterrupt.
 
         As there, no callback of `Context.on_shutdown` is called.
         """

@@ -13,7 +13,7 @@ COMPLETE = "Questions._complete"  # the name of a response's callback in recordi
 
 
 def is_called(service: Any) -> bool:
-    """Whether a client has sent a request to a service of the run."""
+    """Return whether a client has sent a request to a service of the run."""
     record: ServiceRecord | None = service.__dict__.get("_sim")
     return record is not None and record.called
 

@@ -47,11 +47,11 @@ class OrderedNodes(dict):
     """Replaces an executor's set of nodes, whose order differs from process to process."""
 
     def add(self, node: Any) -> None:
-        """As `set.add`."""
+        """Work like `set.add`."""
         self[node] = None
 
     def remove(self, node: Any) -> None:
-        """As `set.remove`."""
+        """Work like `set.remove`."""
         del self[node]
 
 
@@ -133,7 +133,7 @@ class SimExecutor(Waiter):
     def handlers(
         self, timeout: float | TimeoutObject | None, nodes: Collection[Any] | None, done: Callable[[], bool]
     ) -> Iterator[tuple[Task, Any, Any]]:
-        """What `wait_for_ready_callbacks()` yields to a student's own executor: (handler, entity, node).
+        """Yield what `wait_for_ready_callbacks()` gives a student's own executor: (handler, entity, node).
 
         One pass, for which it waits up to `timeout` simulated seconds. nodes: only these, unless None.
         Raises rclpy's exceptions for a time-out, for a shutdown, and when `done()` is true.
@@ -158,7 +158,7 @@ class SimExecutor(Waiter):
         raise ShutdownException() if self.executor._is_shutdown else ConditionReachedException()
 
     def next_due(self) -> Nanoseconds:
-        """As Waiter: from now on, the time at which a timer that isn't due yet will be."""
+        """Work like Waiter: from now on, the time at which a timer that isn't due yet will be."""
         first = None
         for timer in self.scan.timers:
             try:
@@ -171,7 +171,7 @@ class SimExecutor(Waiter):
         return NEVER if first is None else self.engine.now + first
 
     def end_coroutines(self) -> None:
-        """As Waiter, as freeing them would, but under the guard: they may loop on."""
+        """Work like Waiter, as freeing them would, but under the guard: they may loop on."""
         engine, program = self.engine, self.engine.programs[0]
         for task, _, _ in self.executor._tasks:
             if inspect.iscoroutine(task._handler):
@@ -179,7 +179,7 @@ class SimExecutor(Waiter):
         engine.finish()
 
     def close(self) -> None:
-        """As Waiter."""
+        """Work like Waiter."""
         with contextlib.suppress(InvalidHandle):
             self.executor.shutdown()
 

@@ -33,7 +33,7 @@ class SimulatedTime:
         self._handles[weakref.ref(clock, self._handles.pop)] = clock.handle
 
     def shown_by(self, clock: Any) -> bool:
-        """Whether a clock shows the run's time."""
+        """Return whether a clock shows the run's time."""
         return weakref.ref(clock) in self._handles
 
     def move_to(self, moment: Nanoseconds) -> None:
@@ -46,5 +46,5 @@ class SimulatedTime:
             handle.set_ros_time_override(time)
 
     def moment_at(self, wall: int) -> Nanoseconds:
-        """What time it was in the run at a time of the wall clock, in nanoseconds."""
+        """Return what time it was in the run at a time of the wall clock, in nanoseconds."""
         return self._moments[bisect(self._wall, wall) - 1]

@@ -18,7 +18,7 @@ ENDS = {
 
 
 def consequences(usual: Recording, failed: Recording, stopped: Sequence[str] = ()) -> str:
-    """What goes another way than in the usual order, in sentences.
+    """Return what goes another way than in the usual order, in sentences.
 
     stopped: threads that waited forever, such as
         "thread A.work of A still waits at line 7: `lock.acquire()`".

@@ -170,7 +170,7 @@ class _Search:
 
 
 def _progress(orders: int) -> Progress:
-    """What shows how far the search is: a bar in a notebook, a line in a terminal."""
+    """Return what shows how far the search is: a bar in a notebook, a line in a terminal."""
     if in_notebook():
         from sim.view.progress_bar import ProgressBar  # imported here because it is slow
 
@@ -185,13 +185,13 @@ class _Line:
         self._orders, self._width, self._shown = orders, 0, sys.stderr.isatty()
 
     def show(self, text: str, done: int) -> None:
-        """As Progress."""
+        """Work like Progress."""
         if self._shown:
             line = f"[{'#' * (20 * done // self._orders):<20}] {text}"
             print(f"\r{line:<{self._width}}", end="", file=sys.stderr, flush=True)
             self._width = len(line)
 
     def end(self) -> None:
-        """As Progress."""
+        """Work like Progress."""
         if self._width:
             print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)

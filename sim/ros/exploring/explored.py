@@ -14,7 +14,7 @@ NO_PROMISE = "Nothing guarantees the usual order, although the current rclpy alw
 
 @dataclass
 class Explored:
-    """What `explore` has found.
+    """The result of `explore`.
 
     failed: the order in which it does not hold, for `run(..., order=found.failed)`; None if it held in all.
     number: that order's number before it was shrunk. tried: the orders that were tried. usual: the run in
@@ -44,7 +44,7 @@ class Explored:
 
     @property
     def explanation(self) -> str:
-        """What was found, in a sentence or two."""
+        """Return what was found, in a sentence or two."""
         if self.recording is None:
             stopped = " The search was interrupted." if self.interrupted else ""
             return f"It holds in the usual order and in {self.tried} others.{stopped}{self._unseen}"
@@ -80,6 +80,6 @@ class Explored:
 
 
 def list_departures(departures: list[Departure]) -> str:
-    """What came in another order, for the middle of a sentence."""
+    """Return what came in another order, for the middle of a sentence."""
     parts = [f"{departure.text} at {departure.stamp:.4g} s" for departure in departures]
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"

@@ -98,7 +98,7 @@ def _reads(log: AccessLog) -> Iterator[tuple[tuple[object, ...], int, Logged]]:
 
 
 def _did(access: Logged) -> str:
-    """What an access was, such as "reads Counter.count = 3 (line 12)"."""
+    """Return what an access was, such as "reads Counter.count = 3 (line 12)"."""
     name = ".".join(filter(None, (access.owner, access.name)))
     if access.kind == CALL:
         return f"calls {name}.{access.value} (line {access.line})"

@@ -40,7 +40,7 @@ class Choices:
             self._departures.append(Departure(now / SECOND, node, kind, text, draw.id))
 
     def rank(self, draw: Draw, probability: float) -> int:
-        """Whether something comes first, last or in its usual place."""
+        """Return whether something comes first, last or in its usual place."""
         if not self.order.departs(draw, probability):
             return USUAL
         return FIRST if draw.value < 0.5 else LAST
@@ -48,7 +48,7 @@ class Choices:
     # -- programs ----------------------------------------------------------------------------------
 
     def start_delay(self, program: Program) -> Nanoseconds:
-        """How much later than usual a program starts."""
+        """Return how much later than usual a program starts."""
         return self.order.start(program.number)[1]
 
     def started_late(self, program: Program) -> None:
@@ -96,7 +96,7 @@ class Choices:
     def preemption(
         self, fiber: Fiber, function: str, line: int, others_due: Callable[[Nanoseconds], bool]
     ) -> Preempted | None:
-        """How a thread is preempted before it executes a line; None where it isn't.
+        """Return how a thread is preempted before it executes a line; None where it isn't.
 
         An order picks some lines, and for each the time of its execution from which on it may happen there:
         so it reaches what threads do late, too, with few preemptions. others_due: whether anything else would
@@ -144,7 +144,7 @@ class Preempted(NamedTuple):
 
 
 def label(fiber: Fiber) -> str:
-    """How a fiber is called: its program; or its thread, or parallel callback, and its program."""
+    """Return how a fiber is called: its program; or its thread, or parallel callback, and its program."""
     program = fiber.process.name
     if fiber.thread is None:
         return program

@@ -21,7 +21,7 @@ from sim.ros.fibers.waiter import NEVER, Waiter
 
 
 class Program(Protocol):
-    """What a fiber belongs to: one program, with its own module-level state of rclpy."""
+    """The program of a fiber, with its own module-level state of rclpy."""
 
     name: str
     number: int  # among the programs of the course, or of the student
@@ -41,7 +41,7 @@ class Program(Protocol):
 
 
 class FiberHost(Protocol):
-    """What a fiber needs of its scheduler."""
+    """The part of a scheduler that a fiber needs."""
 
     now: Nanoseconds
     hub: greenlet.greenlet
@@ -89,7 +89,7 @@ class Fiber:
         self.thread, thread._sim = thread, self
 
     def runnable(self) -> bool:
-        """Whether what it waits for has happened."""
+        """Return whether what it waits for has happened."""
         if not self.started or self.thrown is not None:
             return True
         waiter, now = self.waiter, self._scheduler.now
@@ -100,11 +100,11 @@ class Fiber:
         return self.ready is not None and bool(self.ready())
 
     def next_due(self) -> Nanoseconds:
-        """When it goes on at the latest; NEVER if only something else can let it."""
+        """Return when it goes on at the latest; NEVER if only something else can let it."""
         return min(NEVER if self.wake_at is None else self.wake_at, self.timer_due if self.waiter else NEVER)
 
     def only_polls(self) -> bool:
-        """Whether it spins an executor, and its turn is only a look for work there."""
+        """Return whether it spins an executor, and its turn is only a look for work there."""
         in_time = self.wake_at is None or self._scheduler.now < self.wake_at
         return self.waiter is not None and in_time
 

@@ -23,7 +23,7 @@ class FiberLock:
         self.release = self._lock.release
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """As `threading.Lock.acquire`."""
+        """Work like `threading.Lock.acquire`."""
         if self._lock.acquire(False):
             return True
         run = engine()
@@ -60,7 +60,7 @@ class FiberRLock:
         return _thread.get_ident() if run is None else run.current
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """As `threading.RLock.acquire`."""
+        """Work like `threading.RLock.acquire`."""
         if self._owner == self._me():
             self._count += 1
             return True
@@ -70,7 +70,7 @@ class FiberRLock:
         return True
 
     def release(self) -> None:
-        """As `threading.RLock.release`."""
+        """Work like `threading.RLock.release`."""
         if self._owner != self._me():
             raise RuntimeError("cannot release un-acquired lock")
         self._count -= 1
@@ -79,7 +79,7 @@ class FiberRLock:
             self._lock.release()
 
     def locked(self) -> bool:
-        """As `threading.RLock.locked`, which Python has since 3.14, for its Condition."""
+        """Work like `threading.RLock.locked`, which Python has since 3.14, for its Condition."""
         return self._lock.locked()
 
     def __enter__(self) -> bool:

@@ -99,7 +99,7 @@ class Scheduler:
         return True
 
     def others_due(self, within: Nanoseconds) -> bool:
-        """Whether anything but the current fiber goes on within this time."""
+        """Return whether anything but the current fiber goes on within this time."""
         moment = self.now + within
         others = (fiber for fiber in self.fibers if fiber is not self.current and not fiber.done)
         return any(fiber.runnable() or fiber.next_due() <= moment for fiber in others)

@@ -10,7 +10,7 @@ NEVER: Nanoseconds = 2**63  # later than any moment of a run
 
 
 class Waiter:
-    """What fibers wait for while they spin: an executor. Only one that was woken is looked at.
+    """An executor for which fibers wait while they spin. Only one that was woken is looked at.
 
     Whatever makes work ready for it calls `wake()`. Two things don't: time, so the waiter says when its next
     timer is due; and code that changes what only polling can find, so a waiter with such work is polled.
@@ -25,7 +25,7 @@ class Waiter:
         self.wakes += 1
 
     def next_due(self) -> Nanoseconds:
-        """When its next timer is due; NEVER for none."""
+        """Return when its next timer is due; NEVER for none."""
         return NEVER
 
     def end_coroutines(self) -> None:

@@ -15,7 +15,7 @@ REASON = "another process runs in wall time, which takes no simulated time"
 
 
 def _limited(run: Any, timeout: float | None) -> tuple[float | None, bool]:
-    """How long a student's code may wait, in seconds of wall time, and whether that is less than it wants."""
+    """Return how long a student's code may wait (s, wall time), and whether that is less than it wants."""
     limit = run.guard.waiting_limit
     less = timeout is None or timeout > limit
     return (limit if less else timeout), less

@@ -13,7 +13,7 @@ INVALID = "rcl node's context is invalid"
 
 
 def is_shut_down(context: Context | None) -> bool:
-    """Whether a program of a run has shut down this context of its own."""
+    """Return whether a program of a run has shut down this context of its own."""
     return engine() is not None and context is not None and not shared_context(context).alive
 
 

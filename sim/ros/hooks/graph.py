@@ -97,7 +97,7 @@ def create_timer(original: Callable) -> Callable:
 
 
 def _require_context(publisher: Publisher, failed: str) -> None:
-    """As `require_context`, with the words of a publisher."""
+    """Work like `require_context`, with the words of a publisher."""
     writer = publisher.__dict__.get("_sim")
     if writer is not None and not writer.context.alive and engine() is not None:
         raise _rclpy.RCLError(f"{failed}: publisher's context is invalid")

@@ -52,7 +52,7 @@ def install() -> None:
 
 
 def _replacement(hook: Hook) -> tuple[Any, Any]:
-    """What a hook replaces, and its replacement. Raises HookError."""
+    """Return what a hook replaces, and its replacement. Raises HookError."""
     original = original_of(hook)
     original = original.__func__ if isinstance(original, staticmethod) else original
     replacement = hook.make(original)

@@ -51,7 +51,7 @@ ATTRIBUTES: dict[type, tuple[str, ...]] = {
     Duration: ("_duration_handle",),
     EventHandler: ("_ready_to_take_data",),
     Executor: ("_guard", "_is_shutdown", "_nodes", "_tasks"),
-    Future: ("_set_executor",),
+    Future: ("_callbacks", "_set_executor"),
     GuardCondition: ("_executor_triggered",),
     JumpHandle: ("_post_callback", "_pre_callback"),
     MultiThreadedExecutor: ("_executor",),
@@ -132,7 +132,7 @@ def _attributes(owner: type) -> set[str]:
 
 
 def _takes(name: str, count: int) -> bool:
-    """Whether a C++ function can be called with so many arguments, by the signature in its docstring."""
+    """Return whether a C++ function takes so many arguments, by the signature in its docstring."""
     function: Any = _rclpy
     for part in name.split("."):
         function = getattr(function, part, None)
@@ -141,7 +141,7 @@ def _takes(name: str, count: int) -> bool:
 
 
 def _fits(signature: str, count: int) -> bool:
-    """Whether the arguments of one overload, as pybind11 writes them, can be so many."""
+    """Return whether the arguments of one overload, as pybind11 writes them, can be so many."""
     names = re.findall(r"(?:^|, )(\w+): ", signature)
     most = len(names) - names.count("self")
     return most - signature.count(" = ") <= count <= most

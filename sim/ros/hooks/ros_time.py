@@ -23,7 +23,7 @@ ON_SWITCH = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=T
 
 
 def _offset(clock: Clock) -> Nanoseconds:
-    """What a clock shows at the start of a run."""
+    """Return what a clock shows at the start of a run."""
     return UPTIME if clock.clock_type is ClockType.STEADY_TIME else EPOCH
 
 

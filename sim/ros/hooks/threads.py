@@ -99,7 +99,7 @@ def get_ident(original: Callable) -> Callable:
 
 
 def _is_student_code(depth: int = 2) -> bool:
-    """Whether student code calls: in a run, or in a notebook cell, whose locks may be used in a run."""
+    """Return whether student code calls: in a run, or in a cell, whose locks may be used in a run."""
     return engine() is not None or sys._getframe(depth).f_globals.get("__name__") == "__main__"
 
 

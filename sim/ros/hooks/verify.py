@@ -20,7 +20,7 @@ _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 class HookError(ImportError):
-    """What a hook replaces is different in the version that is installed."""
+    """A hook's target is different in the installed version."""
 
 
 def check_internals() -> None:

@@ -52,7 +52,7 @@ class SimProcessStarter:
             self.run.output.log(*line)
 
     def find_bundled(self, package: str, name: str) -> str | None:
-        """As launch's `ProcessStarter`. Raises ExecutableNotFound."""
+        """Work like launch's `ProcessStarter`. Raises ExecutableNotFound."""
         path = f"{sys.prefix}/lib/{package}/{name}"
         if is_left_out(package, name):
             self._bundled[path] = left_out(package)
@@ -63,7 +63,7 @@ class SimProcessStarter:
     async def start(
         self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: Callable
     ) -> SimProcess:
-        """As launch's `ProcessStarter`."""
+        """Work like launch's `ProcessStarter`."""
         try:
             command = shlex.split(" ".join(cmd)) if shell else cmd
             bundled = self._bundled.get(command[0]) if command else None
@@ -103,11 +103,11 @@ class SimProcess:
         self._partial_lines = {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
-        """As launch's `Process`."""
+        """Work like launch's `Process`."""
         return await self._status
 
     def send_signal(self, number: int) -> None:
-        """As launch's `Process`: SIGINT is Ctrl-C, and every other signal kills it."""
+        """Work like launch's `Process`: SIGINT is Ctrl-C, and every other signal kills it."""
         if number == signal.SIGINT:
             interrupt(self._process)
             return

@@ -63,7 +63,7 @@ def canonical(type_name: str, raw: bytes) -> bytes:
 
 
 def is_canonical(type_name: str, raw: bytes) -> bool:
-    """Whether these are canonical bytes of a message of this type, checked without decoding its values.
+    """Return whether these are canonical bytes of this type's message, checked without decoding values.
 
     Also False for a type whose validity depends on its values, such as a boolean or a bounded sequence.
     """
@@ -175,7 +175,7 @@ def _layout_checked_by_size(type_name: str) -> tuple | None:
 
 
 def _are_checked_by_size(slots: Sequence[Any]) -> bool:
-    """Whether any bytes of the right sizes are valid values of these slots. False if there are no slots."""
+    """Return whether any bytes of the right sizes are valid values of these slots; False without slots."""
     for slot in slots:
         if isinstance(slot, NamespacedType):
             checked = _are_checked_by_size(message_class("/".join((*slot.namespaces, slot.name))).SLOT_TYPES)

@@ -69,7 +69,7 @@ def _convert_number(value: Any, is_float: bool) -> Any:
 
 
 def create_with_matching_type(make: Callable[[Any], Any], msg_type: Any) -> Any:
-    """What `make` returns for this message type or, if the topic has that, for the other float type.
+    """Return what `make` returns for this message type or, if the topic has that, for the other float type.
 
     Raises RCLError as `make` does, if the program is not lenient or neither type matches.
     """

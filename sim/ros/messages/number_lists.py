@@ -36,7 +36,7 @@ class _Finder(MetaPathFinder):
     """Finds message modules as Python does, and prepares each after it was loaded."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: Any = None) -> ModuleSpec | None:
-        """As `MetaPathFinder`."""
+        """Work like `MetaPathFinder`."""
         spec = PathFinder.find_spec(name, path, target) if _INTERFACES.fullmatch(name) else None
         if spec is None or spec.loader is None:
             return None

@@ -56,7 +56,7 @@ class Player:
 
     @property
     def over(self) -> bool:
-        """Whether the run has ended; `recording.ended` says why."""
+        """Return whether the run has ended; `recording.ended` says why."""
         return self._session.over
 
     @property

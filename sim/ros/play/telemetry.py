@@ -5,27 +5,17 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
-from sim.evidence.message_text import decoded, long_lists, single_numbers, text_lines
+from sim.evidence.message_text import TopicMessage, decoded, long_lists, numbers_to_plot, text_lines
 from sim.evidence.readings import readings
 from sim.ros.session import Session
 from sim.world import Contact, Scene, World
 
 PLOT_PERIOD, MAX_POINTS = 10.0, 400  # s of simulated time, and points of a topic's plot
 MAX_CURVES = 2
-
-
-class TopicMessage(Protocol):
-    """A message with its topic, its type and its stamp (s); reading `message` may decode it."""
-
-    topic: str
-    type: str
-    stamp: float
-
-    @property
-    def message(self) -> Any:
-        """The decoded message."""
+ORDER = "warehouse_msgs/msg/Order"
+CONTACT_SHOWN = 2.0  # s of simulated time; a contact may be shorter than the time between two states
 
 
 class Telemetry:
@@ -35,6 +25,7 @@ class Telemetry:
         self.topic = ""  # the selected one
         self._next = 0  # index in a recording
         self._newest: dict[str, TopicMessage] = {}
+        self._orders: list[Any] = []  # messages of a warehouse's desk
         self._recent: deque[TopicMessage] = deque(maxlen=MAX_POINTS)
 
     def select(self, topic: str) -> None:
@@ -43,7 +34,7 @@ class Telemetry:
         self._recent.clear()
 
     def update(self, session: Session) -> dict[str, Any]:
-        """As `values`, of all that a session has recorded."""
+        """Work like `values`, of all that a session has recorded."""
         recording = session.recording
         for message in recording.published[self._next :]:
             self.add(message)
@@ -54,6 +45,8 @@ class Telemetry:
     def add(self, message: TopicMessage) -> None:
         """Take note of a message."""
         self._newest[message.topic] = message
+        if message.type == ORDER and (order := decoded(message)) is not None:
+            self._orders.append(order)
         if message.topic == self.topic:
             self._recent.append(message)
 
@@ -64,9 +57,9 @@ class Telemetry:
         contacts: Sequence[Contact],
         topics: Mapping[str, str],
     ) -> dict[str, Any]:
-        """numbers: pairs of label and text. topic: the selected topic's newest message and plot, or None.
+        """numbers: pairs of label and text. touching: whether the robot is in contact.
 
-        topics: the type of each topic, by name.
+        topic: the selected topic's newest message and plot, or None. topics: the type of each topic, by name.
         """
         pose = ranges = None
         if scene is not None and world is not None:
@@ -74,8 +67,15 @@ class Telemetry:
             if world.driven_body in names:
                 pose = scene.poses[names.index(world.driven_body)]
             ranges = None if scene.last_scan is None else scene.last_scan.ranges
-        numbers = list(readings(world, pose, self._message, ranges, contacts))
-        return {"numbers": numbers, "topic": self._topic(topics.get(self.topic))}
+        numbers = list(readings(world, pose, self._message, ranges, contacts, self._orders))
+        touching = scene is not None and self._touches(scene.time, contacts)
+        return {"numbers": numbers, "touching": touching, "topic": self._topic(topics.get(self.topic))}
+
+    def _touches(self, now: float, contacts: Sequence[Contact]) -> bool:
+        """Return whether the robot touches something, or has just done so."""
+        bumper = self._message("/bumper", "std_msgs/msg/Bool")
+        recent = bool(contacts) and now - contacts[-1].stamp < CONTACT_SHOWN
+        return recent or (bumper is not None and bumper.data)
 
     def _message(self, topic: str, *kinds: str) -> Any:
         item = self._newest.get(topic)
@@ -94,7 +94,6 @@ class Telemetry:
 
     def _curves(self, message: Any, now: float) -> Iterator[dict[str, Any]]:
         """The curves to plot: the numbers of a long list, or single numbers over time."""
-        fields = dict(single_numbers(message))
         rows = next(long_lists(message), None)
         if rows is not None:
             name, values = rows
@@ -104,8 +103,10 @@ class Telemetry:
             return
         while self._recent and self._recent[0].stamp < now - PLOT_PERIOD:
             self._recent.popleft()
-        seen = [(item.stamp, dict(single_numbers(decoded(item)))) for item in self._recent]
-        changing = [name for name in fields if len({values.get(name) for _, values in seen}) > 1]
+        seen = [(item.stamp, dict(numbers_to_plot(decoded(item)))) for item in self._recent]
+        fields = dict.fromkeys(name for _, values in seen for name in values)
+        different = {name: {values[name] for _, values in seen if name in values} for name in fields}
+        changing = [name for name, values in different.items() if len(values) > 1]
         for name in (changing or list(fields))[:MAX_CURVES]:
             points = [
                 [stamp, values[name]] for stamp, values in seen if math.isfinite(values.get(name, math.nan))

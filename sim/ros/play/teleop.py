@@ -16,7 +16,7 @@ TURTLE_SPEED, TURTLE_TURN = 2.0, 2.0
 
 
 class TeleopSettings(NamedTuple):
-    """How keys drive: topic, whether its type is TwistStamped, and speed (m/s) and turning rate (rad/s)."""
+    """Settings of the keys: topic, whether its type is TwistStamped, speed (m/s), turning rate (rad/s)."""
 
     topic: str = "cmd_vel"
     stamped: bool = False
@@ -25,7 +25,7 @@ class TeleopSettings(NamedTuple):
 
 
 def teleop_settings(world: World | None) -> TeleopSettings | None:
-    """How keys drive the first robot or turtle of a world; None if it has none."""
+    """Return how keys drive the first robot or turtle of a world; None if it has none."""
     if world is None or world.driven_body is None:
         return None
     if world.machine is None:

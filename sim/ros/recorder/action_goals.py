@@ -86,7 +86,7 @@ class Goals:
         return [server for server in made if server is not None and alive(server._handle)]
 
     def discovered(self, client: Any) -> bool:
-        """Whether a goal of a client would reach a server, if there is one."""
+        """Return whether a goal of a client would reach a server, if there is one."""
         there = [server._sim for server in self._there(client._sim.action)]
         return client._sim.reaches(there, self._recorder.scheduler.now)
 

@@ -44,7 +44,7 @@ class RecorderBase:
         return self.name_of(nodes[0]) if nodes else f"/{fiber.process.name}" if fiber is not None else ""
 
     def is_course_node(self) -> bool:
-        """Whether a program of the course is running."""
+        """Return whether a program of the course is running."""
         fiber = self.scheduler.current
         return fiber is not None and fiber.process.from_course
 

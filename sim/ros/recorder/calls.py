@@ -50,7 +50,7 @@ class Calls:
         return [server for server in made if server is not None and alive(server.handle)]
 
     def discovered(self, client: Any) -> bool:
-        """Whether a request of a client would reach a server, if there is one."""
+        """Return whether a request of a client would reach a server, if there is one."""
         there = [server._sim for server in self.servers(client._sim.service)]
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
@@ -147,7 +147,7 @@ class Calls:
 
 
 def alive(handle: Any) -> bool:
-    """Whether the object of rclpy that has this handle was not destroyed yet."""
+    """Return whether the object of rclpy that has this handle was not destroyed yet."""
     try:
         with handle:
             return True

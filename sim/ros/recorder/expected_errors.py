@@ -17,7 +17,7 @@ _ALL = (object, BaseException, Exception)  # to catch one of these is no sign of
 
 
 def is_expected(error: BaseException, *stacks: FrameType | None) -> bool:
-    """Whether the student's code raises it by `raise`, and a function on one of these stacks names it.
+    """Return whether the student's code raises it by `raise`, and a function on one of these stacks names it.
 
     That function has it, or a class between it and Exception, in an `except` or a `suppress`.
     """

@@ -10,7 +10,7 @@ _LIBRARIES = ("rclpy", "sim", "importlib", "threading")
 
 
 def calls_publish(frame: FrameType | None) -> bool:
-    """Whether a function on the stack, or a method of an object whose method is on it, uses the name publish.
+    """Return whether a function on the stack, or another method of its object, uses the name publish.
 
     frame: the innermost; frames of rclpy and of the course are passed over.
     """

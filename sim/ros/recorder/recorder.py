@@ -42,7 +42,7 @@ from sim.ros.recorder.expected_errors import is_expected
 from sim.ros.recorder.publish_calls import calls_publish
 from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.recorder.running import RunningCallback, callback_name
-from sim.ros.recorder.tracebacks import student_traceback, text_of
+from sim.ros.recorder.tracebacks import is_raised_by_student, student_traceback, text_of
 
 CLOCK = "/clock"
 MAX_LOG_LINES = 100_000
@@ -117,7 +117,7 @@ class Recorder(RecorderBase):
             self.node_fact(node, WATCHES)
 
     def _is_students(self) -> bool:
-        """Whether a program of the student's is running in this process."""
+        """Return whether a program of the student's is running in this process."""
         fiber = self.scheduler.current
         return fiber is not None and not fiber.process.from_course
 
@@ -126,7 +126,7 @@ class Recorder(RecorderBase):
         self.fact(self.name_of(node), fact)
 
     def fact(self, name: str, fact: str) -> None:
-        """As `node_fact`, of the node with this full name."""
+        """Work like `node_fact`, of the node with this full name."""
         if self.open and (name, fact) not in self._facts:
             self._facts.add((name, fact))
             self.recording.node_facts.append(NodeFact(self.now, name, fact))
@@ -188,9 +188,10 @@ class Recorder(RecorderBase):
         if not isinstance(error, NO_FAULT) and not is_expected(error, sys._getframe(1), spins):
             self._record(error, callback, node)
 
-    def end_error(self, error: BaseException, program: str) -> None:
-        """An exception left a main() after the Ctrl-C at the end of the run."""
-        if self.ending and not isinstance(error, NO_FAULT):
+    def end_error(self, error: BaseException, program: str, *, has_main: bool) -> None:
+        """An exception left a program after the Ctrl-C at the end, or its main() for a Ctrl-C of its own."""
+        own = has_main and isinstance(error, KeyboardInterrupt) and is_raised_by_student(error)
+        if own or (self.ending and not isinstance(error, NO_FAULT)):
             self.recording.end_errors.append(self._row(error, program, None))
 
     def undelivered(self, sender: str, topic: str) -> None:

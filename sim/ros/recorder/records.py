@@ -32,12 +32,12 @@ class EndpointRecord:
     server_seen: bool = field(default=False, init=False)  # a client has found that a server is ready
 
     def has_discovered(self, server: EndpointRecord, now: Nanoseconds) -> bool:
-        """Whether a client has discovered a server. Two programs need time for that, or one waits for it."""
+        """Return whether a client has discovered a server. Two programs need time for that, or one waits."""
         same_program = self.program is not None and self.program is server.program
         return self.server_seen or same_program or now > max(self.created_at, server.created_at)
 
     def reaches(self, servers: Sequence[EndpointRecord], now: Nanoseconds) -> bool:
-        """Whether what a client sends reaches a server, if there is one."""
+        """Return whether what a client sends reaches a server, if there is one."""
         return not servers or any(self.has_discovered(server, now) for server in servers)
 
 

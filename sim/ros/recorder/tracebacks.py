@@ -27,7 +27,7 @@ _LIBRARIES = (*_OF_COURSE, *sysconfig.get_paths().values(), "<frozen ")
 
 
 def is_library(filename: str) -> bool:
-    """Whether a source file is part of a library, this package or Python, and so not the student's."""
+    """Return whether a source file is part of a library, this package or Python, and so not the student's."""
     return filename.startswith(_LIBRARIES) or (
         _INTERFACE.search(filename) is not None and _is_generated(filename)
     )
@@ -35,12 +35,12 @@ def is_library(filename: str) -> bool:
 
 @functools.cache
 def _is_generated(filename: str) -> bool:
-    """Whether it is the Python code of a message, service or action that rosidl generated."""
+    """Return whether it is the Python code of a message, service or action that rosidl generated."""
     return linecache.getline(filename, 1).startswith("# generated from rosidl_generator_py")
 
 
 def is_of_course(filename: str) -> bool:
-    """Whether a source file is part of this package or of the ROS packages that it includes."""
+    """Return whether a source file is part of this package or of the ROS packages that it includes."""
     return filename.startswith(_OF_COURSE)
 
 
@@ -57,7 +57,7 @@ def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
 
 
 def _called_wrongly(error: BaseException) -> list[traceback.FrameSummary]:
-    """Where the student's function begins that a library called with other arguments than it takes."""
+    """Return where the student's function begins that a library called with other arguments than it takes."""
     at, found = error.__traceback__, _WRONG_CALL.search(text_of(error))
     if at is None or not isinstance(error, TypeError) or found is None:
         return []
@@ -71,6 +71,12 @@ def _called_wrongly(error: BaseException) -> list[traceback.FrameSummary]:
         if is_it and not is_library(code.co_filename):
             return [traceback.FrameSummary(code.co_filename, code.co_firstlineno, code.co_name)]
     return []
+
+
+def is_raised_by_student(error: BaseException) -> bool:
+    """Return whether the student's own code raises it, and not what that calls, or Ctrl-C."""
+    stack = traceback.extract_tb(error.__traceback__)
+    return bool(stack) and not is_library(stack[-1].filename)
 
 
 def student_traceback(error: BaseException) -> str:
@@ -116,7 +122,7 @@ def line_at(code: CodeType, instruction: int) -> int:
 
 
 def student_line(frame: FrameType | None) -> str:
-    """Where in the student's own code a stack is, for the end of a sentence."""
+    """Return where in the student's own code a stack is, for the end of a sentence."""
     while frame is not None and is_library(frame.f_code.co_filename):
         frame = frame.f_back
     if frame is None:

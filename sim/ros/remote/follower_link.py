@@ -55,7 +55,7 @@ class _OpenCall:
 
     @property
     def finished(self) -> bool:
-        """Whether nothing more can happen to the call."""
+        """Return whether nothing more can happen to the call."""
         if self.location is SERVER_HERE:
             return self.call.answered is not None or bool(self.call.raised)
         return self.call.lost or "received" in self.reported

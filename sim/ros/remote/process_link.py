@@ -111,7 +111,7 @@ class ProcessLink:
                 self.outgoing.append(MessagePublished("", subscription.name, raw, False))
 
     def must_send(self, message: Message) -> bool:
-        """Whether the other process needs a message published in this one."""
+        """Return whether the other process needs a message published in this one."""
         if self.engine.transport.links is not None:  # the simulated network delivers it
             return False
         return bool(self.proxies.wanted.get(message.topic)) or message.topic in self.local.latched

@@ -6,7 +6,7 @@ An action has proxies for each of its three services and two topics.
 from __future__ import annotations
 
 import contextlib
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -71,7 +71,7 @@ class Proxies:
         self.services: list[ProxyService] = []
         self.clients: dict[str, list[ProxyClient]] = defaultdict(list)  # by service
         self.action_subscriptions: list[ProxySubscription] = []  # of feedback and status topics
-        self.wanted: Counter[str] = Counter()  # number of the other process's subscriptions, by topic
+        self.wanted = engine.transport.elsewhere  # the other process's subscriptions, by topic
         self.arrivals: list[Any] = []  # deliveries of the simulated network, for the other process
         self._created = 0
 
@@ -179,7 +179,8 @@ class Proxies:
         elif proxy.of_action:
             self.action_subscriptions.append(proxy)
         else:
-            self.wanted[proxy.name] += 1
+            proxy.created_at = self._engine.now
+            self.wanted[proxy.name].append(proxy)
             if self._engine.transport.links is not None:
                 self._connect_network(number, proxy)
 
@@ -211,7 +212,7 @@ class Proxies:
             elif proxy.of_action:
                 self.action_subscriptions.remove(proxy)
             else:
-                self.wanted[proxy.name] -= 1
+                self.wanted[proxy.name].remove(proxy)
                 if proxy.reader is not None:
                     proxy.reader.close()
             destroy(proxy.handle)

@@ -14,6 +14,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 
+from sim.nanoseconds import Nanoseconds
 from sim.ros.remote import events
 from sim.ros.transport.endpoint import Sample
 from sim.ros.transport.qos import NO_LIMIT
@@ -40,7 +41,7 @@ class ProxyNode:
         self.network = engine.transport.services
 
     def get_fully_qualified_name(self) -> str:
-        """As `rclpy.node.Node`."""
+        """Work like `rclpy.node.Node`."""
         return self.name
 
     def destroy(self) -> None:
@@ -81,31 +82,41 @@ class ProxyReader(DataReader):
             self.liveliness = self
 
     def receive(self, sample: Sample) -> None:
-        """As `DataReader.receive`: it goes to the other process."""
+        """Work like `DataReader.receive`: it goes to the other process."""
         raw, stamp, number, expires = sample
         event = events.MessageDelivered(self._number, raw, stamp, number, expires, self._gap)
         self._arrivals.append(event)
         self._gap = 0
 
     def on_lost(self, count: int) -> None:
-        """As `DataReader.on_lost`."""
+        """Work like `DataReader.on_lost`."""
         self._gap += count
 
     def assert_liveliness(self, writer: DataWriter) -> None:
-        """As `LivelinessMonitor.assert_liveliness`: the other process tracks the leases."""
+        """Work like `LivelinessMonitor.assert_liveliness`: the other process tracks the leases."""
         self._arrivals.append(events.LivelinessDelivered(self._number, writer.sender))
 
     def matched(self, writer: DataWriter) -> None:
-        """As `LivelinessMonitor.matched`: the other process notices this itself."""
+        """Work like `LivelinessMonitor.matched`: the other process notices this itself."""
 
     unmatched = matched
 
 
 class ProxySubscription(Proxy):
-    """Lets publishers of this process match a subscription of the other one."""
+    """Lets publishers of this process match a subscription of the other one.
+
+    reader: on a simulated network. created_at, program: as those of a `TopicEndpoint`.
+    """
 
     handle_class = _rclpy.Subscription
     reader: ProxyReader | None = None
+    created_at: Nanoseconds = 0
+    program = None
+
+    @property
+    def profile(self) -> QoSProfile:
+        """Work like the attribute of a `TopicEndpoint`."""
+        return self.qos_profile
 
     def take(self) -> bytes | None:
         """The bytes of the next message, or None."""

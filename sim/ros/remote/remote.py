@@ -158,7 +158,7 @@ class _RunExchange:
         remote._open = True
 
     def is_due(self) -> bool:
-        """Whether there are events for the other process, or it has more to do at this time step."""
+        """Return whether there are events for the other process, or it has more to do at this time step."""
         self.link.collect()
         return self._busy or bool(self.link.outgoing)
 

@@ -116,7 +116,7 @@ class FollowerLoop:
         engine.transport.connect(self._link)
 
     def run(self, last: Nanoseconds, enough: Callable[[], bool]) -> Ended:
-        """As `MainLoop.run`, until the leader ends the run."""
+        """Work like `MainLoop.run`, until the leader ends the run."""
         while (command := self._commands.next()).get("do") == "go":
             moment, events = command["now"], command["events"]
             self._engine.transport.events.schedule_arrival(moment, partial(self._link.apply, events))

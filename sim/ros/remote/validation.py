@@ -116,7 +116,7 @@ def valid_message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
 
 
 def valid_message_bytes(value: Any, cls: type, what: str) -> bytes:
-    """As `valid_message`, but only the bytes. Canonical bytes are returned without serializing them again."""
+    """Work like `valid_message`, but only for bytes. Canonical bytes are returned as they are."""
     if isinstance(value, bytes) and is_canonical(type_name(cls), value):
         return Canonical(value)
     return valid_message(value, cls, what)[1]
@@ -144,7 +144,7 @@ def trust_types_in(folder: str) -> None:
 
 
 def _is_installed(package: str) -> bool:
-    """Whether a package is installed in this Python, and not in a folder to which a student can write."""
+    """Return whether a package is installed in this Python, not in a folder a student can write to."""
     spec = find_spec(package)
     folders = list(spec.submodule_search_locations or ()) if spec is not None else []
     return bool(folders) and all(folder.startswith(tuple(_type_folders)) for folder in folders)

@@ -132,7 +132,7 @@ class OrderDesk(Node):
 
 
 def is_near(robot: MobileRobot, place: PoseStamped) -> bool:
-    """Whether a robot's center is close enough to be served."""
+    """Return whether a robot's center is close enough to be served."""
     position = place.pose.position
     return math.dist(robot.pose[:2], (position.x, position.y)) <= NEAR
 

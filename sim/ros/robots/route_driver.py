@@ -70,7 +70,7 @@ class RouteDriver(Node):
         return x, y, wrap(yaw0 + 2 * math.atan2(turn.z, turn.w))
 
     def is_blocked(self, x: float, y: float, yaw: float) -> bool:
-        """Whether an obstacle is on the next stretch of the route."""
+        """Return whether an obstacle is on the next stretch of the route."""
         if not self.near:
             return False
         steps = math.ceil((STOP_DISTANCE - self.first_look) / self.width * 2)

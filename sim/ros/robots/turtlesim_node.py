@@ -19,7 +19,7 @@ class OwnPond(Turtlesim):
     """A further pond, which its own timer advances and no picture shows."""
 
     def tick(self) -> None:
-        """As `Turtlesim.tick`, after advancing the pond."""
+        """Work like `Turtlesim.tick`, after advancing the pond."""
         self.scene.advance(engine().now / SECOND)
         super().tick()
 

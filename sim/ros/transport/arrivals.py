@@ -11,7 +11,7 @@ from sim.ros.fibers.fiber import Program
 
 
 class PublisherEnd(Protocol):
-    """What of a publisher's endpoint matters here; as of DataWriter."""
+    """The part of a publisher's endpoint that matters here; as of DataWriter."""
 
     program: Program | None
     sender: str
@@ -20,7 +20,7 @@ class PublisherEnd(Protocol):
 
 
 class SubscriptionEnd(Protocol):
-    """What of a subscription's endpoint matters here; as of DataReader."""
+    """The part of a subscription's endpoint that matters here; as of DataReader."""
 
     program: Program | None
     subscriber: str
@@ -39,7 +39,7 @@ class Arrivals:
         self._kept: dict[tuple[str, ...], Nanoseconds] = {}
 
     def at(self, writer: PublisherEnd, reader: SubscriptionEnd, now: Nanoseconds) -> Nanoseconds:
-        """When a message that is sent now arrives."""
+        """Return when a message that is sent now arrives."""
         if self._is_fixed(writer, reader):
             return now
         pair = writer.sender, reader.subscriber
@@ -52,7 +52,7 @@ class Arrivals:
         return max(arrival, self._kept.get((*pair, writer.topic), now))
 
     def kept_at(self, writer: PublisherEnd, reader: SubscriptionEnd, now: Nanoseconds) -> Nanoseconds:
-        """When what a latched topic has kept arrives at a subscription that is found now.
+        """Return when what a latched topic has kept arrives at a subscription that is found now.
 
         It is sent apart from new messages, so that those of other topics may come first.
         """
@@ -69,7 +69,7 @@ class Arrivals:
 
     @staticmethod
     def _is_fixed(writer: PublisherEnd, reader: SubscriptionEnd) -> bool:
-        """Whether no message is late: within one program, and between the course's own."""
+        """Return whether no message is late: within one program, and between the course's own."""
         if writer.program is not None and writer.program is reader.program:
             return True
         return writer.from_course and reader.program is not None and reader.program.from_course

@@ -105,7 +105,7 @@ class ReliableChannel(Channel):
         self._early: dict[int, Sample | None] = {}  # those that wait for earlier ones; None for a gap
 
     def send(self, sample: Sample) -> None:
-        """As Channel."""
+        """Work like Channel."""
         self._counts.sent += 1
         self.unacknowledged.add(sample.number)
         if self._next is None:
@@ -113,7 +113,7 @@ class ReliableChannel(Channel):
         self._send(sample, heartbeat=self._history.is_full)
 
     def assert_liveliness(self) -> None:
-        """As Channel; it is not sent again."""
+        """Work like Channel; it is not sent again."""
         self._cross(0, self._liveliness_arrived)
 
     def send_heartbeat(self) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable
+from typing import Any
 
 from sim.nanoseconds import Nanoseconds
 from sim.ros.fibers.scheduler import Scheduler
@@ -29,4 +30,5 @@ class TransportContext:
         self.links = None if network is None else HostLinks(network, recorder.recording.seed)
         self.sent: Counter[str] = Counter()  # messages on each topic, except those that C++ code publishes
         self.peer: Peer | None = None
+        self.elsewhere: defaultdict[str, list[Any]] = defaultdict(list)  # its subscriptions, by topic
         self.arrivals = None if scheduler.choices is None else Arrivals(scheduler.choices)

@@ -58,7 +58,7 @@ class TopicEndpoint:
         self.on_close = on_close
 
     def has_discovered(self, other: TopicEndpoint) -> bool:
-        """Whether the two know of each other. Two programs need time for that, except where both are latched:
+        """Return whether the two know each other. Two programs need time for that, unless both are latched:
         what is latched is sent as soon as they do.
         """
         time_passed = self.scheduler.now > max(self.created_at, other.created_at)
@@ -67,7 +67,7 @@ class TopicEndpoint:
 
 
 class PublisherEndpoint(TopicEndpoint):
-    """What of a publisher's endpoint the network needs to know. sender: the node's name."""
+    """The part of a publisher's endpoint that the network needs to know. sender: the node's name."""
 
     sender: str
     count = 0  # messages sent

@@ -28,7 +28,7 @@ class EventQueue:
         heapq.heappush(self._deadlines, (moment, next(self._numbers), do))
 
     def next_due(self, end: Nanoseconds) -> Nanoseconds:
-        """When the next event is due; `end` at the latest."""
+        """Return when the next event is due; `end` at the latest."""
         for events in (self._arrivals, self._deadlines):
             if events and events[0][0] < end:
                 end = events[0][0]

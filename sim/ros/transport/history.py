@@ -48,15 +48,15 @@ class History:
 
     @property
     def is_full(self) -> bool:
-        """Whether the next message replaces the oldest one, or has to wait."""
+        """Return whether the next message replaces the oldest one, or has to wait."""
         return len(self.stored) >= self._length
 
     def has_room(self) -> bool:
-        """Whether the next message need not wait."""
+        """Return whether the next message need not wait."""
         return not (self._keeps_all and self.is_full)
 
     def all_acknowledged(self) -> bool:
-        """Whether every subscription is known to have everything."""
+        """Return whether every subscription is known to have everything."""
         return not any(channel.unacknowledged for channel in self.channels)
 
     def add(self, sample: Sample) -> None:

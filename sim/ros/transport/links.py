@@ -18,7 +18,7 @@ class HostLink:
         self._free_at: Nanoseconds = 0
 
     def cross(self, random: Random, size: int, now: Nanoseconds) -> Nanoseconds | None:
-        """When a packet of so many bytes that is sent now arrives; None if it is lost."""
+        """Return when a packet of so many bytes that is sent now arrives; None if it is lost."""
         bandwidth, start = self.network.bandwidth, now
         if bandwidth is not None:
             start = max(now, self._free_at)

@@ -35,7 +35,7 @@ class MiddlewareReader(DataReader):
     _seen: int | None = -1
 
     def take(self) -> Sample | None:
-        """As `DataReader.take`."""
+        """Work like `DataReader.take`."""
         sent = self.run.sent.get(self.topic)  # None: only C++ code publishes here, uncounted
         if sent is not None and sent == self._seen:
             return None

@@ -24,13 +24,13 @@ NO_LIMIT, FOREVER = Duration(), 2**63 - 1
 
 
 def are_compatible(offered: QoSProfile, requested: QoSProfile) -> bool:
-    """Whether a subscription receives from a publisher."""
+    """Return whether a subscription receives from a publisher."""
     compatibility, _ = qos_check_compatible(offered, requested)
     return compatibility != QoSCompatibility.ERROR
 
 
 def latches(profile: QoSProfile) -> bool:
-    """Whether an endpoint is latched: a late joiner gets earlier messages if both of its endpoints are."""
+    """Return whether an endpoint is latched: a late joiner gets earlier messages if both ends are."""
     return (
         profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
         and profile.reliability is ReliabilityPolicy.RELIABLE
@@ -38,7 +38,7 @@ def latches(profile: QoSProfile) -> bool:
 
 
 def queue_length(profile: QoSProfile) -> int | None:
-    """How many messages wait at most; None: without limit."""
+    """Return how many messages wait at most; None: without limit."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(profile.depth, 1)
 
 

@@ -22,20 +22,20 @@ from sim.ros.transport.qos import FOREVER
 
 REQUESTED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED
 CHANGED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED
-MISSED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
+MESSAGE_LOST = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
 OFFERED = QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED
-LOST = QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST
+LIVELINESS_LOST = QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST
 # What an event counts. One table for each kind of endpoint: their event types share their numbers.
-OF_WRITER = {OFFERED: ("total_count",), LOST: ("total_count",)}
+OF_WRITER = {OFFERED: ("total_count",), LIVELINESS_LOST: ("total_count",)}
 OF_READER = {
     REQUESTED: ("total_count",),
     CHANGED: ("alive_count", "not_alive_count"),
-    MISSED: ("total_count",),
+    MESSAGE_LOST: ("total_count",),
 }
 
 
 class EventCounts:
-    """What one kind of event has counted, and how much of that its callback has been given."""
+    """Counts of one kind of event, and how much of that its callback has been given."""
 
     def __init__(self, scheduler: Scheduler, counts: Iterable[str]) -> None:
         self._scheduler = scheduler
@@ -49,7 +49,7 @@ class EventCounts:
         self._scheduler.wake_all()
 
     def take(self) -> SimpleNamespace | None:
-        """What rclpy's callback gets, with all changes since the last time; None if there are none."""
+        """Return what rclpy's callback gets, with all changes since the last time; None if there are none."""
         if self._counts == self._reported:
             return None
         changes = {f"{name}_change": count - self._reported[name] for name, count in self._counts.items()}
@@ -81,13 +81,13 @@ class Lease:
         self._scheduled = False
 
     def renew(self) -> None:
-        """It happened."""
+        """Note that it happened."""
         self._due = self._run.scheduler.now + self._length
         if not self._scheduled:
             self._schedule()
 
     def cancel(self) -> None:
-        """It need not happen any more."""
+        """Stop waiting: it need not happen any more."""
         self._due = None
 
     def _schedule(self) -> None:
@@ -127,7 +127,7 @@ def liveliness_lease(run: TransportContext, profile: QoSProfile, counts: EventCo
 
 
 class LivelinessMonitor:
-    """Which publishers are alive for a subscription with a lease. length: that of the lease.
+    """The publishers that are alive for a subscription with a lease. length: that of the lease.
 
     Automatic ones are as long as they exist; others from an assertion on, for the lease.
     """
@@ -172,6 +172,6 @@ class LivelinessMonitor:
 def liveliness_monitor(
     run: TransportContext, profile: QoSProfile, counts: EventCounts | None
 ) -> LivelinessMonitor | None:
-    """What watches the publishers of a subscription, if it has a lease and a callback for changes."""
+    """Return what watches the publishers of a subscription, if it has a lease and a callback for changes."""
     length = profile.liveliness_lease_duration.nanoseconds
     return LivelinessMonitor(run, length, counts) if counts and 0 < length < FOREVER else None

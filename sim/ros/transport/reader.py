@@ -17,7 +17,7 @@ from sim.ros.transport.endpoint import Sample, TopicEndpoint
 from sim.ros.transport.qos import FOREVER, queue_length
 from sim.ros.transport.qos_events import (
     CHANGED,
-    MISSED,
+    MESSAGE_LOST,
     OF_READER,
     REQUESTED,
     deadline_lease,
@@ -58,7 +58,7 @@ class DataReader(TopicEndpoint):
         self.liveliness = liveliness_monitor(run, self.profile, counts.get(CHANGED))
         self._deadline = deadline_lease(run, self.profile, counts.get(REQUESTED))
         self._lifespan = profile.lifespan.nanoseconds or FOREVER
-        self._lost = counts.get(MISSED)
+        self._lost = counts.get(MESSAGE_LOST)
 
     def receive(self, sample: Sample) -> None:
         """A message has come: its executor has work."""
@@ -68,11 +68,11 @@ class DataReader(TopicEndpoint):
         self.waiter.wake()
 
     def is_expired(self, sample: Sample) -> bool:
-        """Whether a message is older than this subscription's lifespan; the publisher's is not asked here."""
+        """Return whether a message is older than this subscription's lifespan, not the publisher's."""
         return self.scheduler.now - sample.stamp >= self._lifespan
 
     def on_lost(self, count: int) -> None:
-        """So many messages did not come before the one that comes now."""
+        """Note that so many messages did not come before the one that comes now."""
         if self._lost is not None:
             self._lost.add(total_count=count)
 

@@ -35,7 +35,7 @@ KINDS = {"send_goal": "goal", "cancel_goal": "cancel", "get_result": "result"}  
 
 
 class DelayQueue:
-    """What has been sent to one endpoint: what has not arrived yet; what has, up to the length of a queue."""
+    """The messages sent to one endpoint: those not arrived yet; those arrived, up to a queue's length."""
 
     def __init__(self, run: TransportContext, on_arrival: Callable[[], None], length: int | None) -> None:
         self._run, self._on_arrival = run, on_arrival
@@ -150,7 +150,7 @@ class ServiceTransport:
         return queue.take()
 
     def at_server(self, server: Any) -> dict[str, Any]:
-        """What has arrived at an action server: at most one request of each kind."""
+        """Return what has arrived at an action server: at most one request of each kind."""
         self._collect_at_server(server)
         return self._taken(server, ("goal", "cancel", "result"))
 
@@ -162,7 +162,7 @@ class ServiceTransport:
                 self._queue(server, kind).put(due, (header, request))
 
     def at_client(self, client: Any) -> dict[str, Any]:
-        """What has arrived at an action client: at most one of each kind."""
+        """Return what has arrived at an action client: at most one of each kind."""
         self._collect_at_client(client)
         return self._taken(client, ("goal", "cancel", "result", "feedback", "status"))
 
@@ -180,7 +180,7 @@ class ServiceTransport:
     def _due(
         self, kind: str, name: str, sender: str, receiver: str, size: int = 0, since: Seconds | None = None
     ) -> Nanoseconds | None:
-        """When something that a node sent at `since`, or now, reaches another one; None: never.
+        """Return when something that a node sent at `since`, or now, reaches another one; None: never.
 
         kind: what it is. name: of the service or action. sender, receiver: full names of the nodes.
         """
@@ -214,7 +214,7 @@ def _goal_id(request: Any) -> Any:
 
 
 def _later(there: HostLink, back: HostLink, random: Random, begin: Nanoseconds) -> Nanoseconds | None:
-    """When what was lost arrives after all, with the heartbeats that count from `begin`."""
+    """Return when what was lost arrives after all, with the heartbeats that count from `begin`."""
     for beat in range(1, MOST_HEARTBEATS):
         heartbeat = there.travel(random, begin + beat * HEARTBEAT)
         request = None if heartbeat is None else back.travel(random, heartbeat + RESPONSE)

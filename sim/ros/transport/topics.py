@@ -69,6 +69,6 @@ class Topics:
                 writer.unmatch(endpoint)
 
     def _by_middleware(self, topic: str) -> bool:
-        """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes, calls."""
+        """Return whether C++ code publishes there: log lines, actions, states of lifecycle nodes, calls."""
         by_cpp = topic == ROSOUT or "/_action/" in topic or topic.endswith(CPP_TOPICS)
         return by_cpp or self._all_by_middleware

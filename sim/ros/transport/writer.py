@@ -19,7 +19,7 @@ from sim.ros.transport.endpoint import PublisherEndpoint, Sample, TopicEndpoint
 from sim.ros.transport.outgoing import OutgoingChannels
 from sim.ros.transport.qos import FOREVER, are_compatible, latches, queue_length
 from sim.ros.transport.qos_events import (
-    LOST,
+    LIVELINESS_LOST,
     OF_WRITER,
     OFFERED,
     deadline_lease,
@@ -63,7 +63,7 @@ class DataWriter(PublisherEndpoint):
         self.type = type_name(type_)
         counts = event_counts(run, events, OF_WRITER)
         self._deadline = deadline_lease(run, self.profile, counts.get(OFFERED))
-        self._liveliness = liveliness_lease(run, self.profile, counts.get(LOST))
+        self._liveliness = liveliness_lease(run, self.profile, counts.get(LIVELINESS_LOST))
         self._lifespan = profile.lifespan.nanoseconds or FOREVER
         self.readers: list[DataReader] = []
         self.outgoing = None if run.links is None else OutgoingChannels(self)  # to other hosts
@@ -102,7 +102,7 @@ class DataWriter(PublisherEndpoint):
             self.outgoing.send(sample)
 
     def _arrival(self, reader: DataReader, now: Nanoseconds) -> Nanoseconds:
-        """When a message that is sent now arrives; at the creation of the subscription, as a kept one."""
+        """Return when a message sent now arrives; at the subscription's creation, as a latched one."""
         if self.run.arrivals is None:
             return now
         known = now > max(self.created_at, reader.created_at)
@@ -122,7 +122,7 @@ class DataWriter(PublisherEndpoint):
             reader.liveliness.assert_liveliness(self)
 
     def match(self, reader: DataReader) -> None:
-        """If a subscription is compatible, send messages there from now on, and the latched ones at once."""
+        """Send messages to a subscription from now on, if it is compatible, and the latched ones at once."""
         both_elsewhere = self.program is None and reader.program is None  # they match in the other process
         if both_elsewhere or not are_compatible(self.profile, reader.profile):
             return
@@ -145,8 +145,13 @@ class DataWriter(PublisherEndpoint):
         return [*self.readers, *(channel.reader for channel in channels)]
 
     def undiscovered(self) -> int:
-        """How many matched subscriptions a message would not reach yet, because they were just created."""
-        return sum(not self.has_discovered(reader) for reader in self._matched_readers())
+        """Return how many matched subscriptions a message wouldn't reach yet, as they were just created."""
+        elsewhere = [
+            reader
+            for reader in self.run.elsewhere.get(self.topic, ())
+            if reader.reader is None and are_compatible(self.profile, reader.profile)
+        ]
+        return sum(not self.has_discovered(reader) for reader in (*self._matched_readers(), *elsewhere))
 
     def assert_liveliness(self) -> None:
         """Its publisher is alive. On best effort that reaches no subscription, as with Fast DDS."""

@@ -41,7 +41,7 @@ def hello(system: System, options: Namespace) -> None:
 
 
 class Greetings:
-    """What was sent to other hosts and received from them since the last table. host: this one's name."""
+    """Messages sent to other hosts and received from them since the last table. host: this one's name."""
 
     def __init__(self, host: str) -> None:
         self.host = host
@@ -51,7 +51,7 @@ class Greetings:
 
     @property
     def text(self) -> str:
-        """What to send."""
+        """Return what to send."""
         return f"{GREETING} {self.host}"
 
     def count(self, counts: Counter[str], text: str) -> None:

@@ -9,14 +9,39 @@ import subprocess
 from argparse import Namespace
 from pathlib import Path
 
+from sim.course_folders import FILES
 from sim.ros2.group import argument
 from sim.ros2.new_package import NewPackage
 from sim.ros2.system import CliError, Output
 from sim.ros2.verbs.pkg import pkg
 
-APACHE = Path(__file__).parents[3] / "LICENSE"  # the course's own
+APACHE = FILES / "LICENSE"  # the course's own
 LICENSE_FILES = {"Apache-2.0": APACHE}
 BUILD_TYPES = ("ament_cmake", "ament_python")
+
+
+class Disk:
+    """The place where a new package is written."""
+
+    def absolute(self, folder: str) -> str:
+        """Return the absolute path."""
+        return os.path.abspath(folder)
+
+    def exists(self, folder: str) -> bool:
+        """Return whether there is already something of this name."""
+        return os.path.exists(folder)
+
+    def write(self, folder: str, path: str, text: str | None) -> None:
+        """Write a file of the package in this folder; without a text make a folder."""
+        target = Path(folder, path)
+        if text is None:
+            target.mkdir(parents=True)
+        else:
+            target.write_text(text, encoding="utf-8")
+
+    def copy(self, source: Path, folder: str, path: str) -> None:
+        """Copy a file of the course into the package in this folder."""
+        shutil.copyfile(source, Path(folder, path))
 
 
 @pkg.verb(
@@ -60,16 +85,21 @@ BUILD_TYPES = ("ament_cmake", "ament_python")
 )
 def create(output: Output, options: Namespace) -> None:
     """Create a new ROS 2 package."""
+    create_package(output, options, Disk())
+
+
+def create_package(output: Output, options: Namespace, disk: Disk) -> None:
+    """Create it there. Raises CliError."""
     package = _new_package(output, options)
     folder = os.path.join(options.destination_directory, package.name)
-    if os.path.exists(folder):
+    if disk.exists(folder):
         raise CliError(
             f"\nAborted!\nThe directory already exists: {folder}\nEither remove the directory or choose a "
             "different destination directory or package name"
         )
-    _announce(output, package, options.destination_directory)
+    _announce(output, package, disk.absolute(options.destination_directory))
     try:
-        _write(output, package, folder)
+        _write(output, package, folder, disk)
     except OSError as error:
         raise CliError(f"unable to create folder: {error.filename}: {error.strerror}") from None
 
@@ -114,7 +144,7 @@ def _email() -> str:
 def _announce(output: Output, package: NewPackage, destination: str) -> None:
     facts = {
         "package name": package.name,
-        "destination directory": os.path.abspath(destination),
+        "destination directory": destination,
         "package format": package.format,
         "version": "0.0.0",
         "description": package.description,
@@ -131,9 +161,9 @@ def _announce(output: Output, package: NewPackage, destination: str) -> None:
             output.print_line(f"{name}: {value}")
 
 
-def _write(output: Output, package: NewPackage, folder: str) -> None:
+def _write(output: Output, package: NewPackage, folder: str, disk: Disk) -> None:
     output.print_line(f"creating folder {folder}")
-    os.makedirs(folder)
+    disk.write(folder, "", None)
     for path, text in package.files():
         target = os.path.join(folder, path)
         if path in (f"{package.name}/", "src/"):
@@ -141,17 +171,13 @@ def _write(output: Output, package: NewPackage, folder: str) -> None:
             output.print_line(f"creating source{both} folder")
         if path.endswith("/"):
             output.print_line(f"creating folder {target.rstrip('/')}")
-            os.makedirs(target)
+            disk.write(folder, path, None)
         else:
             output.print_line(f"creating {target}")
-            Path(target).write_text(text, encoding="utf-8")
-    _write_license(output, package, Path(folder, "LICENSE"))
-
-
-def _write_license(output: Output, package: NewPackage, file: Path) -> None:
-    text = LICENSE_FILES.get(package.license)
-    if text is not None:
-        shutil.copyfile(text, file)
+            disk.write(folder, path, text)
+    source = LICENSE_FILES.get(package.license)
+    if source is not None:
+        disk.copy(source, folder, "LICENSE")
         return
     output.print_line(
         f"\n[WARNING]: Unknown license '{package.license}'.  This has been set in the package.xml, but no "

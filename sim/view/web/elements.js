@@ -70,3 +70,9 @@ function before(items, stamp, of = (item) => item) {
 }
 
 const stampOf = (item) => item.stamp;
+
+/** A value of a plot with four digits, and without what is too small to be seen in the range of its values. */
+function rounded(value, range) {
+  const step = 10 ** (Math.floor(Math.log10(range || Math.abs(value) || 1)) - 3);
+  return Number((Math.round(value / step) * step).toPrecision(4));
+}

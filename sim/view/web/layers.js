@@ -1,8 +1,10 @@
-// Maps, plans and goals of ../layers.py: parsed, and drawn into the picture of a world.
+// Layers of ../layers.py, what nodes published about the world: parsed, and which of them a reader has chosen to see.
 
 /** @typedef {ReturnType<typeof checkLayer>} Layer */
 
 const MOST_CELLS = 2e5;
+const QUIET = ["pose", "cloud", "image", "frames"]; // drawn where the reader asks for them
+const BASE64 = /^[A-Za-z0-9+/=]*$/;
 const DATA = {
   map: ({ width, place, runs }) => {
     const checked = list(runs, MOST_CELLS, numbers(2));
@@ -12,61 +14,63 @@ const DATA = {
   },
   plan: (points) => list(points, 1000, numbers(2)),
   goal: numbers(3),
+  pose: numbers(6), // x, y, yaw, and the covariance xx, xy, yy
+  cloud: (poses) => list(poses, 1000, numbers(3)),
+  frames: numbers(6), // x, y and a quaternion
+  points: ({ color, places }) => ({ color: size(color), places: list(places, 5000, numbers(2)) }), // to mark
+  image: ({ width, height, webp }) => ({
+    width: size(width), height: size(height), webp: BASE64.test(text(webp, 1e5)) ? webp : refuse("an image"),
+  }),
 };
 
 /** Parses a layer: what a topic showed from a moment (s) on. */
-function checkLayer({ stamp, topic, kind, data }) {
+function checkLayer({ stamp, topic, kind, data, name = "" }) {
   if (!Object.hasOwn(DATA, kind)) refuse("a kind of layer");
-  return { stamp: number(stamp, 1e9) * 1e-3, topic: text(topic), kind, data: DATA[kind](data), image: null };
+  return { stamp: number(stamp, 1e9) * 1e-3, topic: text(topic), kind, name: text(name), data: DATA[kind](data), image: null };
 }
 
-/** Of layers in the order of time, each topic's newest at a time (s). @param {Layer[]} layers @returns {Layer[]} */
-function layersAt(layers, time) {
-  return [...new Map(layers.slice(0, before(layers, time, stampOf) + 1).map((layer) => [layer.topic, layer])).values()];
-}
+/** The colors of points that are marked: usual ones, and special ones. */
+const marksOf = (look) => [look.edge, look.contact];
 
-/** Signs, colors and names of layers for a legend. @param {Layer[]} layers */
-function legendOfLayers(layers, look) {
-  const signs = { map: ["▦", look.edge], plan: ["—", look.plan], goal: ["➤", look.aim] };
-  return [...new Map(layers.map(({ topic, kind }) => [topic, [...signs[kind], topic]])).values()];
-}
+/** The address of an image's data. */
+const webpAddress = ({ webp }) => `data:image/webp;base64,${webp}`;
 
-/** Draw maps below all else. @param {WorldCanvas} picture @param {Layer[]} layers */
-function paintMaps(picture, layers) {
-  const c = picture.context;
-  for (const layer of layers.filter(({ kind }) => kind === "map")) {
-    const { width, place: [x, y, cell], cells } = layer.data, height = Math.ceil(cells.length / width);
-    if (layer.image?.look !== picture.look) layer.image = { look: picture.look, canvas: mapImage(layer.data, height, picture.look) };
-    c.imageSmoothingEnabled = false;
-    const [left, top] = picture.at(x, y + height * cell);
-    c.drawImage(layer.image.canvas, left, top, width * cell * picture.scale, height * cell * picture.scale);
+/** Which layers a picture shows, with a button for each in `root`; `change` is called after each click. */
+class LayerChoice {
+  constructor(change) {
+    this.change = change;
+    this.chosen = new Map(); // topic -> whether it is shown, where the reader has said so
+    this.buttons = new Map();
+    this.root = make("span", { className: "layers" });
   }
-}
 
-/** An image with a pixel for each cell: free ones are clear, those with a cost blue, unknown ones gray. */
-function mapImage({ width, cells }, height, look) {
-  const canvas = make("canvas", { width, height }), context = canvas.getContext("2d");
-  cells.forEach((value, index) => {
-    if (value === 0) return;
-    context.globalAlpha = value < 0 ? 0.16 : value >= 100 ? 0.75 : 0.1 + value / 250;
-    context.fillStyle = value < 0 || value >= 100 ? look.wall : look.robots[0];
-    context.fillRect(index % width, height - 1 - Math.floor(index / width), 1, 1);
-  });
-  return canvas;
-}
+  /** @param {{ topic: string, kind: string }} layer */
+  shows({ topic, kind }) {
+    return this.chosen.get(topic) ?? !QUIET.includes(kind);
+  }
 
-/** Draw plans and goals over the floor. @param {WorldCanvas} picture @param {Layer[]} layers */
-function paintPlans(picture, layers) {
-  const c = picture.context;
-  for (const { kind, data } of layers) {
-    if (kind === "plan" && data.length) picture.line(data, picture.look.plan, 4);
-    if (kind !== "goal") continue;
-    const [px, py] = picture.at(data[0], data[1]);
-    const turn = (angle, reach) => [px + reach * Math.cos(data[2] + angle), py - reach * Math.sin(data[2] + angle)];
-    c.beginPath();
-    for (const [angle, reach] of [[0, 15], [2.6, 10], [Math.PI, 4], [-2.6, 10]]) c.lineTo(...turn(angle, reach));
-    c.closePath();
-    c.fillStyle = picture.look.aim;
-    c.fill();
+  /** Offer these layers. @param {{ topic: string, kind: string, data?: any }[]} layers */
+  offer(layers, look) {
+    const signs = {
+      map: ["▦", look.edge], plan: ["—", look.plan], goal: ["➤", look.aim], pose: ["○", look.belief], cloud: ["∴", look.belief],
+      frames: ["∟", look.axes[0]], image: ["▣", look.ink],
+    };
+    for (const layer of layers) {
+      const { topic, kind } = layer, shown = this.shows(layer);
+      const [sign, color] = kind === "points" ? ["•", marksOf(look)[layer.data.color]] : signs[kind];
+      if (!this.buttons.has(topic)) this.add(layer);
+      const element = this.buttons.get(topic);
+      element.firstChild.textContent = sign;
+      element.firstChild.style.color = shown ? color : "inherit";
+      element.setAttribute("aria-pressed", String(shown));
+      element.title = `${shown ? "Hide" : "Show"} ${topic} in the picture`;
+    }
+  }
+
+  add(layer) {
+    const element = make("button", { type: "button", className: "layer" }, make("b", { ariaHidden: "true" }), ` ${layer.topic}`);
+    element.addEventListener("click", () => { this.chosen.set(layer.topic, !this.shows(layer)); this.change(); });
+    this.buttons.set(layer.topic, element);
+    this.root.append(element);
   }
 }

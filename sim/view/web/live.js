@@ -12,6 +12,7 @@ const POINT_GAP = 40; // ms, at least, between points of a drag
 const HOW = "Click the picture, then drive with the arrow keys or W A S D. Space stops the robot.";
 const BEST = "ros2-course-best-times"; // in the browser: world -> s
 const DIRECTIONS = { up: [1, 0], down: [-1, 0], left: [0, 1], right: [0, -1] };
+const LAYERS = ["layers", "quiet", "shown"]; // of the model
 const SIGHT = 100; // px, the least side of a picture to drive by
 const KEYS = {
   ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right",
@@ -140,20 +141,27 @@ class View {
     this.how = make("div", { className: "how" }, this.howTo || "Watch the run; the buttons pause it, advance it step by step, and end it.");
     this.statusLine = make("div", { className: "say", role: "status" });
     this.warningLine = make("div", { className: "warning", role: "status", hidden: true });
-    this.legend = make("div", { className: "legend" });
+    this.choice = new LayerChoice(() => this.choose());
+    this.signs = make("span");
+    this.legend = make("div", { className: "legend" }, this.signs, this.choice.root);
+    this.clicked = ""; // the topic that was clicked, until it shows
+    /** @type {Layer[]} */
+    this.fixed = []; // maps, plans and goals
+    /** @type {Layer[]} */
+    this.moving = []; // the layers of the newest frame
     const padBelow = this.pad && !this.drives ? [this.pad.root] : [];
     const picture = this.world ? [this.stage, ...padBelow, this.legend] : [];
     this.root.append(this.how, this.controls(), ...picture, this.warningLine, this.statusLine, this.numbers,
       make("div", { className: "topics" }, this.head, this.topics, this.more), this.graph.root);
     this.tick = setInterval(() => { this.showTimeout(); this.requestGraph(); }, TIMEOUT / 3);
-    this.onFrame = (_, [buffer]) => this.frame(buffer);
+    this.onFrame = ({ layers }, [buffer]) => this.frame(buffer, layers);
     this.onStatus = () => this.showStatus();
     this.onGraph = () => this.showGraph();
     this.onLayers = () => this.showLayers();
     model.on("msg:custom", this.onFrame);
     model.on("change:status", this.onStatus);
     model.on("change:graph", this.onGraph);
-    model.on("change:layers", this.onLayers);
+    for (const name of LAYERS) model.on(`change:${name}`, this.onLayers);
     this.lastMessage = performance.now();
   }
 
@@ -191,13 +199,26 @@ class View {
   }
 
   showLegend() {
-    const look = colors(this.root), entries = [...legendOf(this.world, look), ...legendOfLayers(this.picture.frame.layers ?? [], look)];
-    this.legend.replaceChildren(make("b", {}, this.world.name), ...legendElements(entries));
+    const look = colors(this.root);
+    this.signs.replaceChildren(make("b", {}, this.world.name), ...legendElements(legendOf(this.world, look)));
+    const quiet = list(this.model.get("quiet") ?? [], 20, ([topic, kind]) => ({ topic: text(topic), kind: QUIET.includes(kind) ? kind : refuse("a kind of layer") }));
+    this.choice.offer([...this.fixed, ...quiet], look);
+  }
+
+  /** The reader has chosen layers: the kernel sends those that move, for all views of the run. */
+  choose() {
+    const shown = (this.model.get("quiet") ?? []).filter(([topic, kind]) => this.choice.shows({ topic, kind }));
+    this.model.set("shown", shown.map(([topic]) => topic));
+    this.model.save_changes();
+    this.showLayers();
   }
 
   showLayers() {
     if (!this.picture) return;
-    this.picture.frame = { ...this.picture.frame, layers: list(this.model.get("layers") ?? [], 20, checkLayer) };
+    this.fixed = list(this.model.get("layers") ?? [], 20, checkLayer);
+    const shown = this.model.get("shown") ?? [];
+    for (const [topic] of this.model.get("quiet") ?? []) this.choice.chosen.set(topic, shown.includes(topic));
+    this.putLayers();
     this.showLegend();
     this.picture.requestPaint();
   }
@@ -207,7 +228,7 @@ class View {
     this.model.off("msg:custom", this.onFrame);
     this.model.off("change:status", this.onStatus);
     this.model.off("change:graph", this.onGraph);
-    this.model.off("change:layers", this.onLayers);
+    for (const name of LAYERS) this.model.off(`change:${name}`, this.onLayers);
     this.pad?.close();
     this.picture?.close();
   }
@@ -242,7 +263,7 @@ class View {
   }
 
   /** Show a frame; ../live_view.py defines its format. */
-  frame(buffer) {
+  frame(buffer, layers = []) {
     this.lastMessage = performance.now();
     const floats = new Float32Array(buffer.buffer.slice(buffer.byteOffset, buffer.byteOffset + buffer.byteLength));
     this.clock.textContent = floats[0].toFixed(2);
@@ -268,7 +289,14 @@ class View {
       this.showEvent(this.status.ended);
     }
     this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails, tip: this.tip, reached: this.reached !== null };
+    // An image is decoded once.
+    this.moving = list(layers, 100, checkLayer).map((layer) => this.moving.find(({ topic, kind, stamp }) => topic === layer.topic && kind === "image" && stamp === layer.stamp) ?? layer);
+    this.putLayers();
     this.picture.requestPaint();
+  }
+
+  putLayers() {
+    this.picture.frame.layers = [...this.fixed, ...this.moving].filter((layer) => this.choice.shows(layer));
   }
 
   /** Append a point to a path. @param {number[][]} trail @param {number[]} point */
@@ -290,13 +318,14 @@ class View {
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
     this.showEvent(ended);
     for (const topic of topics) this.showTopic(topic);
-    const { numbers: counts, topic = null } = this.status;
+    const { numbers: counts, topic = null, touching = false } = this.status;
     this.head.textContent = counts ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS";
-    this.numbers.replaceChildren(...(counts ?? []).map(([label, value]) => make("div", { className: label === "contacts" && value !== "none" ? "event" : "" },
+    this.numbers.replaceChildren(...(counts ?? []).map(([label, value]) => make("div", { className: label === "contacts" && touching ? "event" : "" },
       make("dt", {}, label), make("dd", {}, value))));
     const selected = topic && this.rows.get(topic.name);
     if (selected && selected.nextSibling !== this.topic.root) selected.after(this.topic.root);
     this.topic.show(topic);
+    if (selected && this.clicked === topic.name) this.bringUp(selected);
     for (const [name, row] of this.rows) {
       row.disabled = !counts;
       row.setAttribute("aria-expanded", String(name === topic?.name));
@@ -307,16 +336,23 @@ class View {
     this.picture.requestPaint();
   }
 
-  /** That the goal was reached, and the end of the run or the newest contact: all are announced to screen readers. */
+  /** That the goal was reached, and the end of the run or a contact, while it lasts: all are announced to screen readers. */
   showEvent(ended) {
-    const { warning = "" } = this.status; // of a stand-alone robot
+    const { warning = "", touching = false } = this.status; // the warning is of a stand-alone robot
     this.warningLine.hidden = !warning;
     if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
-    const event = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
+    const event = ended ? ended[1] : touching && contact ? `Contacts: ${contact}.` : "";
     const text = [this.success, event].filter(Boolean).join(" ");
     if (text !== this.event) this.statusLine.textContent = this.event = text;
     this.statusLine.classList.toggle("success", Boolean(this.success));
+  }
+
+  /** Scroll a topic that was clicked to below the picture, which stays in sight. */
+  bringUp(row) {
+    this.clicked = "";
+    row.style.scrollMarginTop = `${this.stage.offsetHeight}px`;
+    row.scrollIntoView({ block: "start" });
   }
 
   showTopic({ name, type, rate, count = 0 }) {
@@ -325,7 +361,8 @@ class View {
       row = make("button", { type: "button", className: "topic", title: type }, make("span", {}, name),
         make("span", { className: "rate" }));
       row.addEventListener("click", () => {
-        this.send({ topic: row.getAttribute("aria-expanded") === "true" ? "" : name });
+        this.clicked = row.getAttribute("aria-expanded") === "true" ? "" : name;
+        this.send({ topic: this.clicked });
       });
       this.rows.set(name, row);
       if (FOLDED.includes(name)) { this.more.append(row); this.more.hidden = false; } else this.topics.append(row);

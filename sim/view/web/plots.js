@@ -3,6 +3,7 @@
 
 const PANEL = 170, ROW = 26, AXIS = 44, ROW_NAMES = 190; // CSS pixels: heights of a panel, a row and the axis of time; width of names
 const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]]; // curves differ in more than color
+const DENSE = 3, FAINT = 0.4; // pixels between two ticks below which they are paler; the palest
 const NEAR = 0.015; // share of the visible time within which a mark is named
 const KEY_STEP = 0.01; // share of the visible time that an arrow key moves the cursor by
 const STYLES = ["line", "step", "points"], COLORS = ["warning", "caution", "muted"];
@@ -112,7 +113,7 @@ class TimePlot {
       },
       select: { show: true },
       scales: { x: { time: false, min: this.range.min, max: this.range.max }, ...more.scales },
-      axes: [{ ...axis, show: last, label: last ? "time (s)" : undefined, labelFont: FONT, labelSize: 18, size: 26 }, { ...axis, ...more.axis }],
+      axes: [{ ...axis, show: last, label: last ? "time (s)" : undefined, labelFont: FONT, labelSize: 20, labelGap: 4, size: 26 }, { ...axis, ...more.axis }],
       series: [{ label: "time", value: (_, time) => (time === null ? "-" : `${time.toFixed(2)} s`) }, ...more.series],
       legend: { show: more.legend !== false },
       hooks: {
@@ -124,18 +125,18 @@ class TimePlot {
   }
 
   panelChart({ unit, series, levels }, last) {
+    const values = [...series.flatMap(({ y }) => y.filter((value) => value !== null)), ...levels.map(({ value }) => value)];
+    const low = Math.min(...values), high = Math.max(...values), room = (high - low || 1) * 0.06;
     const look = series.map(({ name, style, color, markers }, index) => {
       const stroke = this.color(color, typeof color === "number" ? index : 0);
       return {
         label: name, stroke, width: style === "points" ? 0 : 1.6, dash: DASHES[index % DASHES.length],
         points: { show: markers, size: style === "points" ? 4 : 6, fill: style === "points" ? stroke : undefined },
         paths: style === "points" ? () => null : style === "step" ? uPlot.paths.stepped({ align: 1 }) : uPlot.paths.linear(),
-        value: (_, value) => (value === null || value === undefined ? "-" : `${Number(value.toPrecision(4))}${unit ? ` ${unit}` : ""}`),
+        value: (_, value) => (value === null || value === undefined ? "-" : `${rounded(value, high - low)}${unit ? ` ${unit}` : ""}`),
       };
     });
     const lines = (chart) => levels.forEach(({ value, name, color }) => this.level(chart, value, name, this.color(color, 0)));
-    const values = [...series.flatMap(({ y }) => y.filter((value) => value !== null)), ...levels.map(({ value }) => value)];
-    const low = Math.min(...values), high = Math.max(...values), room = (high - low || 1) * 0.06;
     const more = {
       series: look, after: [lines], axis: { label: unit || undefined, labelFont: FONT, labelSize: 18, size: 56 },
       scales: { y: { range: values.length ? [low - room, high + room] : [0, 1] } },
@@ -165,12 +166,12 @@ class TimePlot {
       const c = chart.ctx, y = chart.valToPos(index, "y", true), half = 8 * uPlot.pxRatio, { left, width } = chart.bbox;
       c.save();
       c.beginPath();
-      for (const stamp of x) {
-        const at = chart.valToPos(stamp, "x", true);
-        if (at < left || at > left + width) continue;
+      const shown = x.map((stamp) => chart.valToPos(stamp, "x", true)).filter((at) => at >= left && at <= left + width);
+      for (const at of shown) {
         c.moveTo(at, y - half);
         c.lineTo(at, y + half);
       }
+      c.globalAlpha = Math.min(Math.max(width / DENSE / uPlot.pxRatio / shown.length, FAINT), 1); // where ticks touch, a gap still shows
       c.strokeStyle = this.color(color, 0);
       c.lineWidth = 1.5 * uPlot.pxRatio;
       c.stroke();
@@ -234,10 +235,12 @@ class TimePlot {
   /** The time, and what happened near it. */
   showStatus() {
     const reach = NEAR * (this.range.max - this.range.min);
-    const near = this.plot.marks.filter(({ stamp }) => Math.abs(stamp - this.time) <= reach).map(({ words }) => words);
+    const time = this.time.toFixed(2), marks = this.plot.marks.filter(({ stamp }) => Math.abs(stamp - this.time) <= reach);
+    const [now, near] = [true, false].map((here) => marks.filter(({ stamp }) => (stamp.toFixed(2) === time) === here).map(({ words }) => words));
+    const happens = now.map((words) => words.replace(/^t = [^:]*: /, "")).join("; ");
     const counts = this.plot.rows.map(({ x }) => x.filter((stamp) => stamp <= this.time).length);
     const rows = this.plot.rows.length === 1 ? `; ${counts[0]} so far` : "";
-    const words = `t = ${this.time.toFixed(2)} s${rows}${near.length ? `. ${near.join("; ")}` : ""}`;
+    const words = `t = ${time} s${rows}${happens && `: ${happens}`}${near.length ? `. ${near.join("; ")}` : ""}`;
     if (this.statusLine.textContent !== words) this.statusLine.textContent = words;
   }
 

@@ -4,6 +4,10 @@
 
 const STORE = "ros2-course-predictions"; // in the browser: question -> letter
 const READY = "data-ready";
+const REVEAL = "ros2-reveal"; // an event at an outcome
+
+/** Whether it was recorded before the page was opened, as on the web site: without a prediction it stays hidden. */
+const isRecorded = ({ dataset }) => "recorded" in dataset;
 
 function stored() {
   try {
@@ -60,16 +64,19 @@ function choose(card, letter) {
   const { question } = card.dataset;
   card.dispatchEvent(new CustomEvent("ros2-prediction", { bubbles: true, detail: { question, answers: answersOf(card), letter } }));
   showChoice(card);
+  for (const outcome of sameQuestion("outcome", card)) outcome.dispatchEvent(new Event(REVEAL));
 }
 
 function showChoice(card) {
-  const letter = predicted(card), known = sameQuestion("outcome", card).length > 0;
+  const letter = predicted(card), outcomes = sameQuestion("outcome", card);
+  const recorded = !letter && outcomes.some(isRecorded), known = outcomes.length > 0 && !recorded;
   for (const choice of card.querySelectorAll("button")) {
     choice.setAttribute("aria-pressed", String(choice.dataset.letter === letter));
     choice.disabled = known;
   }
   const state = card.querySelector(".state");
   if (state) state.textContent = letter ? "Your prediction is saved. Run the next cells to see what happens." : "";
+  if (state && recorded) state.textContent = "Choose an answer. Then you see below what happened.";
   if (state && known) state.textContent = letter ? "" : "You made no prediction before the run.";
 }
 
@@ -79,6 +86,11 @@ function installOutcome(place) {
   place.setAttribute("role", "status");
   const card = sameQuestion("prediction", place)[0];
   const letter = predicted(place) || (card ? predicted(card) : "");
+  if (isRecorded(place) && !letter) {
+    hideOutcome(place);
+    if (card) showChoice(card);
+    return;
+  }
   const answers = answersOf(place), right = letter === place.dataset.happened;
   if (letter) {
     place.classList.add(right ? "right" : "other");
@@ -86,6 +98,18 @@ function installOutcome(place) {
   }
   if (right) place.append(make("p", { className: "state" }, "That's right."));
   if (card) showChoice(card);
+}
+
+/** Hide what happened until there is a prediction, or it is asked for. */
+function hideOutcome(place) {
+  const content = [...place.childNodes], show = make("button", { type: "button" }, "Show what happened");
+  show.addEventListener("click", () => place.dispatchEvent(new Event(REVEAL)));
+  place.replaceChildren(make("p", {}, "Answer the question above first. "), show);
+  place.addEventListener(REVEAL, () => {
+    place.replaceChildren(...content);
+    delete place.dataset.recorded;
+    installOutcome(place);
+  }, { once: true });
 }
 
 /** A text as elements: `...` is code. */

@@ -11,14 +11,16 @@ class Player {
     this.speed = run.speed;
     this.time = run.open;
     this.playing = false;
-    this.topic = new Topic();
+    this.topic = new Topic((time) => this.seek(time));
     /** @type {RunTopic | null} */
     this.selected = null; // the topic that is looked into
     this.root = make("div", { className: "ros2-view" });
     this.root.dataset.lmSuppressShortcuts = "true";
     this.stage = make("div", { className: "stage" });
     this.side = make("div", { className: "side" });
-    this.legend = make("div", { className: "legend" });
+    this.choice = new LayerChoice(() => { this.paintStrips(); this.show(); });
+    this.signs = make("span");
+    this.legend = make("div", { className: "legend" }, this.signs, this.choice.root);
     const controls = this.controls(), main = make("div", { className: "ros2-column" }, this.stage, this.legend, controls);
     const rows = run.world ? [make("div", { className: "row" }, main, this.side)] : [this.side, controls];
     this.graph = new Graph();
@@ -75,7 +77,7 @@ class Player {
     return make("div", { className: "bar" },
       make("div", { className: "group" }, button("back", "One frame back", () => this.step(-1)), this.toggle,
         button("on", "One frame forward", () => this.step(1))),
-      make("div", { className: "time" }, this.clock, make("span", {}, ` / ${run.end.toFixed(2)} s`)),
+      make("div", { className: "time" }, this.clock, make("span", {}, ` / ${run.end.toFixed(2)} s${restText(run)}`)),
       make("div", { className: "scrub" }, this.slider, marks), select, this.statusLine);
   }
 
@@ -112,13 +114,16 @@ class Player {
   }
 
   showTopic() {
-    this.topic.show(this.selected && topicAt(this.selected, this.time));
+    this.topic.show(this.selected && { ...topicAt(this.selected, this.time, this.run.seen), end: this.run.end });
   }
 
   paintStrips() {
-    const look = colors(this.root), { world, layers } = this.run;
+    const look = colors(this.root), { world, layers, seen, beliefs } = this.run;
     this.failure.style.color = look.failure;
-    if (world) this.legend.replaceChildren(make("b", {}, world.name), ...legendElements([...legendOf(world, look), ...legendOfLayers(layers, look)]));
+    if (world) {
+      this.signs.replaceChildren(make("b", {}, world.name), ...legendElements(legendOf(world, look)));
+      this.choice.offer([...layers, ...beliefs.flat(), ...seen], look);
+    }
     for (const { canvas, strip } of this.strips) {
       const context = canvas.getContext("2d");
       context.clearRect(0, 0, STRIP, 1);
@@ -210,13 +215,13 @@ class Player {
   }
 
   showWorld() {
-    this.picture.frame = frameAt(this.run, this.time);
+    this.picture.frame = frameAt(this.run, this.time, this.choice);
     this.picture.requestPaint();
   }
 }
 
-/** What a WorldCanvas shows of a run at a time (s). @param {Run} run @param {number} time @returns {Frame} */
-function frameAt(run, time) {
+/** What a WorldCanvas shows of a run at a time (s). @param {Run} run @param {number} time @param {LayerChoice} choice @returns {Frame} */
+function frameAt(run, time, choice) {
   const at = before(run.stamps, time), next = Math.min(at + 1, run.stamps.length - 1);
   const isAbsent = (index) => run.presence && !run.presence[index].some(([from, to]) => from <= time + 1e-6 && time <= to + PERSISTENCE);
   const poses = run.tracks.map((track, index) => isAbsent(index) ? null : at < 0 ? track[0] : between(track[at], track[next],
@@ -225,7 +230,7 @@ function frameAt(run, time) {
     poses, scan: run.scans[before(run.scans, time, stampOf)] || null,
     trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
     tip: run.tip && [...run.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: run.tip,
-    layers: layersAt(run.layers, time),
+    layers: allLayersAt(run, time).filter((layer) => choice.shows(layer)),
     drawn: run.drawing && visibleAt(run.drawing, time), reached: run.reached !== null && run.reached <= time + 1e-6,
     contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
   };
@@ -244,7 +249,9 @@ class PathPicture {
   constructor(run) {
     this.run = run;
     this.stage = make("div", { className: "stage" });
-    this.legend = make("div", { className: "legend" });
+    this.choice = new LayerChoice(() => this.show());
+    this.signs = make("span");
+    this.legend = make("div", { className: "legend" }, this.signs, this.choice.root);
     this.root = make("div", { className: "ros2-view ros2-path" }, make("style", {}, STYLE), this.stage, this.legend);
     this.failure = make("div", { className: "failure" }, run.failure);
     if (run.failure) this.root.append(this.failure);
@@ -253,7 +260,7 @@ class PathPicture {
 
   start() {
     this.picture = runCanvas(this.stage, this.run);
-    this.picture.canvas.setAttribute("aria-label", `The path in the world ${this.run.world.name}`);
+    this.picture.canvas.setAttribute("aria-label", this.run.title ? `A map of ${this.run.title}` : `The path in the world ${this.run.world.name}`);
     onTheme(this.root, () => this.show());
     this.show(this.run.end);
     followCursor(this.root, this.run.key, (time) => this.show(Math.min(time, this.run.end)));
@@ -261,33 +268,28 @@ class PathPicture {
   }
 
   show(time = this.time) {
-    const { run } = this, whole = frameAt(run, run.end);
+    const { run, choice } = this, whole = frameAt(run, run.end, choice);
     this.time = time;
     const paths = run.presence ? [] : run.tracks; // turtles leave lines of their pens
-    const starts = run.tracks.map((track, index) => (run.world.bodies[index].kind === "robot" ? track[0] : null));
-    this.picture.frame = { ...frameAt(run, time), trails: paths, ahead: [], tip: run.tip, tipAhead: null, contacts: whole.contacts, starts };
+    const starts = run.tracks.map((track, index) => (run.world.bodies[index].kind === "robot" && track.length > 1 ? track[0] : null));
+    this.picture.frame = { ...frameAt(run, time, choice), trails: paths, ahead: [], tip: run.tip, tipAhead: null, contacts: whole.contacts, starts };
     this.picture.requestPaint();
     this.showLegend(whole.contacts.length);
   }
 
   showLegend(contacts) {
-    const { world, tip } = this.run, look = colors(this.root);
+    const { world, tip, title, stamps } = this.run, look = colors(this.root), moves = stamps.length > 1;
     const robots = world.bodies.filter(({ kind }) => kind === "robot");
     const entries = [
-      ...robots.map(({ name }, index) => ["—", look.robots[index % look.robots.length], index ? name : "path"]),
-      ...(robots.length ? [["●", look.ghost, "start"]] : []), ...(tip ? [["—", look.robots[0], "tip's path"]] : []),
-      ...legendOfLayers(this.run.layers, look), ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
+      ...(moves ? robots : []).map(({ name }, index) => ["—", look.robots[index % look.robots.length], index ? name : "path"]),
+      ...(moves && robots.length ? [["●", look.ghost, "start"]] : []), ...(tip ? [["—", look.robots[0], "tip's path"]] : []),
+      ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
     ];
     this.failure.style.color = look.failure;
-    this.legend.replaceChildren(make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`), ...legendElements(entries));
+    const head = [...(title ? [make("b", {}, title)] : []), ...(moves ? [make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`)] : [])];
+    this.signs.replaceChildren(...head, ...legendElements(entries));
+    this.choice.offer(this.run.layers, look);
   }
-}
-
-/** Interpolates two poses; the yaw along the shorter direction. */
-function between(a, b, share) {
-  const part = Math.min(Math.max(share, 0), 1);
-  const turn = Math.atan2(Math.sin(b[2] - a[2]), Math.cos(b[2] - a[2]));
-  return [a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part, a[2] + turn * part];
 }
 
 async function install(div) {

@@ -59,12 +59,13 @@ class WorldCanvas {
     /** @type {Frame} */
     this.frame = { poses: [], scan: null, trails: [], ahead: [], contacts: [] };
     this.request = 0;
+    this.images = new Map(); // topic -> the newest image that has loaded
     const [left, bottom, right, top] = world.bounds;
     this.shown = [left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN];
     stage.append(this.canvas);
     this.camera = new Camera(this, world.bodies.findIndex(({ kind }) => kind === "robot" || kind === "turtle"));
     stage.append(this.camera.root);
-    this.sizes = new ResizeObserver(() => this.fit());
+    this.sizes = new ResizeObserver(() => { this.fit(); this.paint(); }); // at once: a new size clears the canvas
     this.sizes.observe(stage);
     this.frameless = null; // a panel of a given height, which the picture has to fit
     onTheme(stage, () => this.requestPaint());
@@ -113,8 +114,8 @@ class WorldCanvas {
     this.most = this.mostHeight();
     this.height = Math.round(Math.min(this.width * shape, this.most));
     const sharp = window.devicePixelRatio || 1;
-    this.canvas.width = Math.round(this.width * sharp);
-    this.canvas.height = Math.round(this.height * sharp);
+    const size = [this.width, this.height].map((length) => Math.round(length * sharp));
+    if (this.canvas.width !== size[0] || this.canvas.height !== size[1]) [this.canvas.width, this.canvas.height] = size;
     this.canvas.style.height = `${this.height}px`;
     this.requestPaint();
   }
@@ -153,6 +154,7 @@ class WorldCanvas {
     this.y0 = this.height / 2 + scale * y;
     const sharp = window.devicePixelRatio || 1;
     this.look = colors(this.stage);
+    this.stage.style.background = this.look.ground; // live, numbers may be scrolled below its buttons
     this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.context.lineJoin = this.context.lineCap = "round";
     this.floor();
@@ -160,6 +162,7 @@ class WorldCanvas {
     const hits = this.rays();
     this.obstacles();
     paintPlans(this, this.frame.layers ?? []);
+    this.signs();
     for (const { color, width, points } of this.frame.drawn?.strokes ?? []) {
       this.line(points, color, Math.max(width * this.scale, 1));
     }
@@ -171,6 +174,7 @@ class WorldCanvas {
     this.context.globalAlpha = 1;
     this.frame.poses.forEach((pose, index) => this.body(this.bodyOf(index), pose, index));
     this.contacts();
+    paintBeliefs(this, this.frame.layers ?? []);
     this.ruler();
   }
 
@@ -277,12 +281,17 @@ class WorldCanvas {
     c.strokeStyle = look.wall;
     c.lineWidth = 3;
     c.stroke();
+  }
+
+  /** The goal and the named locations. */
+  signs() {
+    const { world } = this;
     if (world.goal) this.star(...world.goal, this.frame.reached);
     const taken = [];
     for (const [name, place] of world.places) this.place(name, ...this.at(...place), taken);
   }
 
-  /** A named location: a small cross, and its name beside it where no other name is; `taken` lists their boxes. */
+  /** A named location: a small cross, and its name; `taken` lists the boxes of the names. */
   place(name, px, py, taken) {
     const c = this.context;
     c.beginPath();
@@ -293,6 +302,12 @@ class WorldCanvas {
     c.strokeStyle = this.look.rim;
     c.lineWidth = 1.5;
     c.stroke();
+    this.label(name, px, py, taken);
+  }
+
+  /** A name beside a point, where no other name is. */
+  label(name, px, py, taken) {
+    const c = this.context;
     c.font = "10px system-ui, sans-serif";
     c.textAlign = "left";
     c.fillStyle = this.look.ink;

@@ -24,11 +24,11 @@ class Grid(NamedTuple):
     open: frozenset[tuple[Cell, Cell]]
 
     def inside(self, cell: Cell) -> bool:
-        """Whether the cell is in the grid."""
+        """Return whether the cell is in the grid."""
         return 0 <= cell[0] < self.columns and 0 <= cell[1] < self.rows
 
     def passable(self, a: Cell, b: Cell) -> bool:
-        """Whether there is no wall between two neighbors, of which one may be outside the grid."""
+        """Return whether there is no wall between two neighbors, of which one may be outside the grid."""
         return ((a, b) if a < b else (b, a)) in self.open
 
 

@@ -111,7 +111,7 @@ class Servo:
         self._set(q + (v + wanted) / 2 * DT, wanted)
 
     def _is_reachable(self, reference: float, rate: float) -> bool:
-        """Whether one step can end exactly there, with enough distance to a limit to decelerate."""
+        """Return whether one step can end exactly there, with enough distance to a limit to decelerate."""
         model, q, v = self.model, self.position, self.velocity
         most = model.max_acceleration * DT
         return (

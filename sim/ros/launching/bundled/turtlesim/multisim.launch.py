@@ -5,7 +5,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """What is launched."""
+    """Return what is launched."""
     ponds = ("turtlesim1", "turtlesim2")
     return LaunchDescription(
         [Node(package="turtlesim", executable="turtlesim_node", namespace=pond) for pond in ponds]
