@@ -7,13 +7,10 @@ import sys
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_ext import build_ext
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-from build_tools.content import version  # noqa: E402
-
 PACKAGES = sorted(path.name for path in (HERE / "definitions").iterdir())
 
 
@@ -41,10 +38,18 @@ class BuildInterfaces(build_ext):
         self.distribution.data_files = sorted(shared.items())
 
 
+class WheelWithBuildNumber(bdist_wheel):
+    """A wheel whose share/ is found in spite of its build number."""
+
+    def finalize_options(self) -> None:
+        """Take the number out of the folder's name, where setuptools leaves it and pip doesn't expect it."""
+        super().finalize_options()
+        self.data_dir = self.data_dir.replace(f"-{self.build_number}.data", ".data")
+
+
 setup(
-    version=version(),
     packages=["sensor_msgs_py"],
     ext_modules=[Extension(package, [], py_limited_api=True) for package in PACKAGES],
-    cmdclass={"build_ext": BuildInterfaces},
+    cmdclass={"build_ext": BuildInterfaces, "bdist_wheel": WheelWithBuildNumber},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
 )

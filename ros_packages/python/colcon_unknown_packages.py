@@ -30,7 +30,7 @@ class UnknownPackages(EventHandlerExtensionPoint):
         self._stderr: dict[Any, list[str]] = {}  # by job
 
     def __call__(self, event: tuple[Any, Any]) -> None:
-        """As `EventHandlerExtensionPoint`."""
+        """Work like `EventHandlerExtensionPoint`."""
         data, job = event
         if isinstance(data, JobQueued):
             self._queued.add(data.identifier)
@@ -59,7 +59,7 @@ class UnknownPackages(EventHandlerExtensionPoint):
 
 
 def explain(name: str, package: str, queued: set[str]) -> str:
-    """Why a package was not found for another one. queued: the names of all packages of the build."""
+    """Return why a package was not found for another one. queued: the names of all packages of the build."""
     if name in queued:
         return (
             f"{name} is a package of this workspace, but {package} does not depend on it, so it is not built "

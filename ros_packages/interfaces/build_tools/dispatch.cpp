@@ -12,6 +12,13 @@
 #include "rosidl_runtime_c/service_type_support_struct.h"
 #include "rosidl_typesupport_c/type_support_map.h"
 
+#if defined(__x86_64__) && defined(__GLIBC__)
+// As of glibc 2.34 these have another version, which older systems lack.
+__asm__(".symver dladdr,dladdr@GLIBC_2.2.5");
+__asm__(".symver dlopen,dlopen@GLIBC_2.2.5");
+__asm__(".symver dlsym,dlsym@GLIBC_2.2.5");
+#endif
+
 namespace
 {
 

@@ -13,8 +13,8 @@ class BuildError(RuntimeError):
     """A build can't continue; the message says what to do."""
 
 
-def require_compilers() -> None:
-    """Raise BuildError unless gcc, g++ and Python.h are installed."""
+def require_compilers(about: str = "the ROS interfaces") -> None:
+    """Raise BuildError unless gcc, g++ and Python.h are installed, with which `about` is built."""
     header = Path(sysconfig.get_path("include"), "Python.h")
     missing = [tool for tool in ("gcc", "g++") if not shutil.which(tool)]
     missing += [] if header.is_file() else ["Python.h"]
@@ -22,7 +22,7 @@ def require_compilers() -> None:
         # A container's root user usually has no sudo.
         sudo = "sudo " if os.geteuid() else ""
         raise BuildError(
-            f"Building the ROS interfaces needs gcc, g++ and Python.h, but {' and '.join(missing)} "
+            f"Building {about} needs gcc, g++ and Python.h, but {' and '.join(missing)} "
             f"{'is' if len(missing) == 1 else 'are'} missing: "
             f"run `{sudo}apt install build-essential python3-dev` and try again."
         )

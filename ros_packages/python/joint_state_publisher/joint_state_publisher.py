@@ -128,7 +128,7 @@ class JointStatePublisher(Node):
             self.pub.publish(message)
 
     def _values(self, name: str) -> dict[str, float]:
-        """What is known of a joint: position, velocity and effort."""
+        """Return what is known of a joint: position, velocity and effort."""
         factor, offset, chain = 1.0, 0.0, [name]
         while name not in self._joints.free:
             dependence = self._joints.dependent[name]

@@ -29,11 +29,11 @@ class Action(LaunchDescriptionEntity):
         return []
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.get_sub_entities() if self.condition is None else []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         if self.condition is None:
             return []
         return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]

@@ -18,5 +18,5 @@ class Condition:
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether the condition holds; False if there is no predicate."""
+        """Return whether the condition holds; False if there is no predicate."""
         return self._predicate is not None and self._predicate(context)

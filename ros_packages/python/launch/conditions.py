@@ -30,7 +30,7 @@ class InvalidConditionExpressionError(ValueError):
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: list[Substitution]) -> bool:
-    """Whether a text is true or 1. Raises InvalidConditionExpressionError unless it is false or 0."""
+    """Return whether a text is true or 1. Raises InvalidConditionExpressionError unless it is false or 0."""
     valid = {"true": True, "1": True, "false": False, "0": False}
     text = perform_substitutions(context, expression).strip().lower()
     if text not in valid:

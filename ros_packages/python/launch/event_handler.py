@@ -18,11 +18,11 @@ class BaseEventHandler:
 
     @property
     def handle_once(self) -> bool:
-        """Whether only the first matching event is handled."""
+        """Return whether only the first matching event is handled."""
         return self.__handle_once
 
     def matches(self, event: Event) -> bool:
-        """Whether the event is handled."""
+        """Return whether the event is handled."""
         return self.__matcher(event)
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
@@ -52,11 +52,11 @@ class EventHandler(BaseEventHandler):
         return self.__entities
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         return super().describe()[0], as_list(self.__entities)
 
     def handle(self, event: Event, context: LaunchContext) -> Any:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         return self.__entities
 
@@ -97,10 +97,10 @@ class OnActionEventBase(BaseEventHandler):
         super().__init__(matcher=matches, **kwargs)
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         return super().describe()[0], [] if callable(self.__on_event) else list(self.__on_event)
 
     def handle(self, event: Event, context: LaunchContext) -> Any:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         return self.__on_event(event, context) if callable(self.__on_event) else self.__on_event

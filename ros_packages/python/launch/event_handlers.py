@@ -104,11 +104,11 @@ class OnExecutionComplete(EventHandler):
         super().__init__(matcher=matches, **kwargs)
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         return super().describe()[0], [] if callable(self.__on_completion) else self.__on_completion
 
     def handle(self, event: Event, context: LaunchContext) -> Any:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         callback = self.__on_completion
         return callback(event, context) if callable(callback) else callback
@@ -125,7 +125,7 @@ class OnShutdown(BaseEventHandler):
         self.__on_shutdown: Callable = on_shutdown if callable(on_shutdown) else lambda *_: on_shutdown
 
     def handle(self, event: Event, context: LaunchContext) -> Any:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         return self.__on_shutdown(event, context)
 

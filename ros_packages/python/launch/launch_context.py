@@ -28,7 +28,7 @@ class _EventHandler(Protocol):
     """What the context uses of a `launch.BaseEventHandler`."""
 
     def matches(self, event: Event) -> bool:
-        """Whether it handles the event."""
+        """Return whether it handles the event."""
 
 
 class _Locals(SimpleNamespace):
@@ -76,7 +76,7 @@ class LaunchContext:
         self._handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Whether any handler is registered for the event."""
+        """Return whether any handler is registered for the event."""
         return any(handler.matches(event) for handler in self._handlers)
 
     def emit_event_sync(self, event: Event) -> None:
@@ -85,7 +85,7 @@ class LaunchContext:
         self._wake.set()
 
     async def emit_event(self, event: Event) -> None:
-        """As `emit_event_sync`."""
+        """Work like `emit_event_sync`."""
         self.emit_event_sync(event)
 
     def call_at_end(self, function: Callable[[], None]) -> None:

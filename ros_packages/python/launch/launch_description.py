@@ -30,12 +30,12 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether the description is deprecated."""
+        """Return whether the description is deprecated."""
         return self.__deprecated_reason is not None
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why it is deprecated."""
+        """Return why it is deprecated."""
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
@@ -47,11 +47,11 @@ class LaunchDescription(LaunchDescriptionEntity):
         self.add_entity(action)
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.__entities
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         if self.deprecated:
             path = context.get_locals_as_dict().get("current_launch_file_path")
             what = "deprecated launch description" if path is None else f"launch file [{path}] is deprecated"

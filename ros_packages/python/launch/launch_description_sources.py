@@ -111,7 +111,7 @@ class LaunchDescriptionSource:
 
     @property
     def method(self) -> str:
-        """How it is read, for people."""
+        """Return how it is read, for people."""
         return self.__method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:

@@ -32,7 +32,7 @@ class _OnInclude(BaseEventHandler):
 
 
 def _place_of(entity: LaunchDescriptionEntity, error: Exception) -> str | None:
-    """Where an entity is in a launch file; one in Python has tracebacks, but for values that are missing."""
+    """Return where an entity is in a launch file; for Python, from tracebacks, but not for missing values."""
     place = getattr(entity, "place", None)
     if place is None and str(error).startswith("launch configuration"):
         place = getattr(entity, "place_in_python", None)
@@ -101,7 +101,7 @@ class LaunchService:
             return runner.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """As `run`, in the running event loop and without signal handlers."""
+        """Work like `run`, in the running event loop and without signal handlers."""
         write = self.__context.process_starter.write_log
         with contextlib.nullcontext() if write is None else redirect_log(write):
             return await self.__execute(shutdown_when_idle)

@@ -58,7 +58,7 @@ class SystemProcessStarter:
         self.pid, self._bundled, self._commands = os.getpid(), bundled, {}
 
     def find_bundled(self, package: str, executable: str) -> str | None:
-        """As `ProcessStarter`. Raises what `bundled` raises."""
+        """Work like `ProcessStarter`. Raises what `bundled` raises."""
         command = None if self._bundled is None else self._bundled(package, executable)
         if command is None:
             return None
@@ -69,7 +69,7 @@ class SystemProcessStarter:
     async def start(
         self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: OnOutput
     ) -> Process:
-        """As `ProcessStarter`."""
+        """Work like `ProcessStarter`."""
         cmd = [word for each in cmd for word in self._commands.get(each, [each])]
         pipes = {"stdin": asyncio.subprocess.PIPE, "stdout": asyncio.subprocess.PIPE}
         pipes |= {"stderr": asyncio.subprocess.PIPE}
@@ -87,12 +87,12 @@ class SystemProcess:
         self.pid, self._process, self._on_output = process.pid, process, on_output
 
     def send_signal(self, number: int) -> None:
-        """As `Process`."""
+        """Work like `Process`."""
         with contextlib.suppress(ProcessLookupError):
             self._process.send_signal(number)
 
     async def wait(self) -> int:
-        """As `Process`. First passes on all of its output; its children's, for at most 1 s."""
+        """Work like `Process`. First passes on all of its output; its children's, for at most 1 s."""
         readers = [
             asyncio.ensure_future(self._read(self._process.stdout, "stdout")),
             asyncio.ensure_future(self._read(self._process.stderr, "stderr")),

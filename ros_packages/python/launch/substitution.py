@@ -40,9 +40,9 @@ class TextSubstitution(Substitution):
         return self.__text
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"'{self.text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self.text

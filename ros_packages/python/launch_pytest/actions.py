@@ -25,11 +25,11 @@ class ReadyToTest(Action):
         self.__over: asyncio.Future | None = None
 
     def get_asyncio_future(self) -> asyncio.Future | None:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.__over
 
     def execute(self, context: LaunchContext) -> list[Action]:
-        """As `Action`."""
+        """Work like `Action`."""
         on_ready = context.get_locals_as_dict().get(ON_READY)
         if on_ready is None or context.is_shutdown:
             return []

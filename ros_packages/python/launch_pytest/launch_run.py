@@ -38,7 +38,7 @@ class LaunchRun:
 
     @property
     def is_over(self) -> bool:
-        """Whether everything that was launched has exited."""
+        """Return whether everything that was launched has exited."""
         return not self._thread.is_alive()
 
     def start(self) -> None:

@@ -140,7 +140,7 @@ def _launch_fixture(item: pytest.Item) -> str | None:
 
 
 def _mark_error(item: pytest.Item, mark: pytest.Mark) -> str | None:
-    """What is wrong with a test's mark, or None."""
+    """Return what is wrong with a test's mark, or None."""
     given = mark.kwargs.get("fixture")
     if fixture_name(given) is None:
         has = "no fixture" if given is None else f"fixture={given!r}"
@@ -165,5 +165,5 @@ def _generates(item: pytest.Function) -> bool:
 
 
 def _ends_launch(item: pytest.Function) -> bool:
-    """Whether a marked test shuts its launch down."""
+    """Return whether a marked test shuts its launch down."""
     return _generates(item) or bool(item.get_closest_marker(MARK).kwargs.get("shutdown"))

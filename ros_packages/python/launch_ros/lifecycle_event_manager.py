@@ -66,7 +66,7 @@ class LifecycleEventManager:
             self.__logger.error(f"Failed to make transition '{name}' for LifecycleNode '{self.node_name}'")
 
     def __abandons(self, context: LaunchContext, what: str) -> bool:
-        """Whether there is a reason to wait no longer, which is logged."""
+        """Return whether there is a reason to wait no longer, which is logged."""
         complete = self.__node.get_asyncio_future()
         if context.is_shutdown:
             reason = "due to shutdown"
@@ -86,7 +86,7 @@ class _OnChangeState(BaseEventHandler):
         self.__manager, self.__node = manager, node
 
     def handle(self, event: Event, context: LaunchContext) -> list[Action]:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         if not event.lifecycle_node_matcher(self.__node):
             return []
@@ -102,10 +102,10 @@ class _Request(Action):
         self.__task: asyncio.Task | None = None
 
     def get_asyncio_future(self) -> asyncio.Future | None:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.__task
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         request = self.__manager.change_state(context, self.__transition_id)
         self.__task = context.asyncio_loop.create_task(request)

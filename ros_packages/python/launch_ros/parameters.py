@@ -64,7 +64,7 @@ class ParameterFile:
 
     @property
     def allow_substs(self) -> Any:
-        """Whether it contains substitutions."""
+        """Return whether it contains substitutions."""
         return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:

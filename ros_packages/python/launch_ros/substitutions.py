@@ -41,11 +41,11 @@ class FindPackage(Substitution):
         raise NotImplementedError
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"{type(self).__name__}(pkg={describe_substitutions(self.package)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`. Raises PackageNotFoundError."""
+        """Work like `Substitution`. Raises PackageNotFoundError."""
         return self.find(perform_substitutions(context, self.package))
 
 
@@ -53,7 +53,7 @@ class FindPackagePrefix(FindPackage):
     """The folder that a package is installed in."""
 
     def find(self, package_name: str) -> str:
-        """As `FindPackage`."""
+        """Work like `FindPackage`."""
         return get_package_prefix(package_name)
 
 
@@ -61,7 +61,7 @@ class FindPackageShare(FindPackage):
     """The folder with a package's data, such as its launch files."""
 
     def find(self, package_name: str) -> str:
-        """As `FindPackage`."""
+        """Work like `FindPackage`."""
         return get_package_share_directory(package_name)
 
 
@@ -78,12 +78,12 @@ class ExecutableInPackage(FindPackagePrefix):
         return self.__executable
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         package, executable = map(describe_substitutions, (self.package, self.executable))
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`. Raises SubstitutionFailure if there is no such executable."""
+        """Work like `Substitution`. Raises SubstitutionFailure if there is no such executable."""
         executable = perform_substitutions(context, self.executable)
         package = perform_substitutions(context, self.package)
         bundled = context.process_starter.find_bundled(package, executable)

@@ -95,7 +95,7 @@ def _value(entity: Entity) -> Any:
 
 
 def _typed(text: str) -> Any:
-    """What an attribute of XML holds: a number, true or false, or a list of such; else the text."""
+    """Return what an attribute of XML holds: a number, true or false, or a list of such; else the text."""
     try:
         found = yaml.safe_load(text)
     except yaml.YAMLError:

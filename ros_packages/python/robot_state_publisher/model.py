@@ -49,7 +49,7 @@ class Joint(NamedTuple):
 
     @property
     def moves(self) -> bool:
-        """Whether it has a position; upstream takes a planar joint as fixed."""
+        """Return whether it has a position; upstream takes a planar joint as fixed."""
         return self.type in (*TURNING, "prismatic")
 
     def transform(self, position: float) -> Transform:

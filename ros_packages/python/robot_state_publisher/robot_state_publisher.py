@@ -123,7 +123,7 @@ class RobotStatePublisher(Node):
             self._published.update(dict.fromkeys(state.name, stamp))
 
     def _next_due(self, names: list[str], now: int) -> float:
-        """When the joint whose transform is the oldest is due, in nanoseconds."""
+        """Return when the joint whose transform is the oldest is due, in nanoseconds."""
         frequency = self.get_parameter("publish_frequency").value
         oldest = min([now, *(self._published.get(name, 0) for name in names)])
         return oldest + int(1000.0 / frequency) * 1_000_000 if frequency else float("inf")

@@ -28,7 +28,7 @@ class TopicMetadata:
     type_description_hash: str = ""
 
     def equals(self, other: TopicMetadata) -> bool:
-        """Whether both are the same topic with the same type and format."""
+        """Return whether both are the same topic with the same type and format."""
         return self == other
 
 
@@ -67,7 +67,7 @@ def system_time(nanoseconds: int) -> Time:
 
 @dataclass
 class BagMetadata:
-    """What metadata.yaml contains."""
+    """The contents of metadata.yaml."""
 
     version: int = VERSION
     bag_size: int = 0
@@ -88,7 +88,7 @@ class MetadataIo:
     """Reads and writes metadata.yaml."""
 
     def metadata_file_exists(self, uri: str) -> bool:
-        """Whether a bag's folder has it."""
+        """Return whether a bag's folder has it."""
         return Path(uri, METADATA_FILE).is_file()
 
     def read_metadata(self, uri: str) -> BagMetadata:

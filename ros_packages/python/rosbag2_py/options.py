@@ -18,7 +18,7 @@ SQLITE = (
 
 @dataclass
 class StorageOptions:
-    """Where a bag is, and when a new file of it begins: after so many bytes or seconds, or never with 0."""
+    """A bag's location, and when a new file of it begins: after so many bytes or seconds, or never with 0."""
 
     uri: str
     storage_id: str = ""
@@ -43,7 +43,7 @@ class ConverterOptions:
 
 @dataclass
 class StorageFilter:
-    """Which topics are read: those that are named or match `regex`, without those that are excluded."""
+    """A filter of topics to read: those that are named or match `regex`, without those that are excluded."""
 
     topics: list[str] = field(default_factory=list)
     services_events: list[str] = field(default_factory=list)
@@ -53,7 +53,7 @@ class StorageFilter:
     regex_to_exclude: str = ""
 
     def selects(self, topic: str) -> bool:
-        """Whether a topic is read."""
+        """Return whether a topic is read."""
         named = (*self.topics, *self.services_events)
         wanted = topic in named or (self.regex and re.fullmatch(self.regex, topic))
         if (named or self.regex) and not wanted:
@@ -63,7 +63,7 @@ class StorageFilter:
 
 
 class ReadOrderSortBy(enum.IntEnum):
-    """What messages are sorted by."""
+    """The criterion by which messages are sorted."""
 
     ReceivedTimestamp = 0
     PublishedTimestamp = 1

@@ -80,7 +80,7 @@ class SequentialReader:
         return True
 
     def has_next(self) -> bool:
-        """Whether there is one more message that the filter selects."""
+        """Return whether there is one more message that the filter selects."""
         messages = self._check_open(NOT_OPEN.format("reading"))
         while self._next is None or not self._filter.selects(self._next[0]):
             self._next = next(messages, None)
@@ -96,7 +96,7 @@ class SequentialReader:
         return topic, message.data, message.log_time
 
     def get_metadata(self) -> BagMetadata:
-        """What is known of the bag as a whole."""
+        """Return what is known of the bag as a whole."""
         self._check_open(NOT_OPEN.format("reading"))
         return self._metadata
 

@@ -152,7 +152,7 @@ class _File:
         self._writer.start("ros2", "rosbag2_py")
 
     def is_full(self, options: StorageOptions, moment: int) -> bool:
-        """Whether the options require a new file for a message at this moment."""
+        """Return whether the options require a new file for a message at this moment."""
         long = options.max_bagfile_duration * SECOND
         begun = self.span is not None and long and moment - self.span[0] > long
         return bool(begun) or 0 < options.max_bagfile_size <= self._bytes

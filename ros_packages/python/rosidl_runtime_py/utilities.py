@@ -17,17 +17,17 @@ def get_interface(identifier: str) -> Any:
 
 
 def is_message(interface: Any) -> bool:
-    """Whether a class is a message."""
+    """Return whether a class is a message."""
     return hasattr(interface, "get_fields_and_field_types")
 
 
 def is_service(interface: Any) -> bool:
-    """Whether a class is a service."""
+    """Return whether a class is a service."""
     return hasattr(interface, "Request") and hasattr(interface, "Response")
 
 
 def is_action(interface: Any) -> bool:
-    """Whether a class is an action."""
+    """Return whether a class is an action."""
     return all(hasattr(interface, part) for part in ("Goal", "Result", "Feedback"))
 
 

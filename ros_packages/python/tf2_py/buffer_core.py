@@ -73,7 +73,7 @@ class BufferCore:
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Stamp
     ) -> tuple[bool, str]:
-        """Whether lookup_transform_core would succeed, and if not, why."""
+        """Return whether lookup_transform_core would succeed, and if not, why."""
         with self._lock:
             return _succeeds(
                 lambda: self._lookup("canTransform", target_frame, source_frame, nanoseconds(time))
@@ -87,7 +87,7 @@ class BufferCore:
         source_time: Time | Stamp,
         fixed_frame: str,
     ) -> tuple[bool, str]:
-        """Whether lookup_transform_full_core would succeed, and if not, why."""
+        """Return whether lookup_transform_full_core would succeed, and if not, why."""
         function = "canTransform"
 
         def lookup_both() -> None:

@@ -79,7 +79,7 @@ class Buffer(BufferCore, BufferInterface):
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
-        """As `lookup_transform`, but awaits the transform."""
+        """Work like `lookup_transform`, but awaits the transform."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -101,7 +101,7 @@ class Buffer(BufferCore, BufferInterface):
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """As `lookup_transform_full`, but awaits the transform."""
+        """Work like `lookup_transform_full`, but awaits the transform."""
         query = target_frame, target_time, source_frame, source_time, fixed_frame
         await self.wait_for_transform_full_async(*query)
         return self.lookup_transform_full_core(*query)
@@ -114,7 +114,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether lookup_transform would succeed within timeout. return_debug_tuple: also return why not."""
+        """Return whether lookup_transform would succeed in time. return_debug_tuple: also return why not."""
         return _poll(
             lambda: self.can_transform_core(target_frame, source_frame, time), timeout, return_debug_tuple
         )
@@ -129,7 +129,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether lookup_transform_full would succeed within timeout."""
+        """Return whether lookup_transform_full would succeed within timeout."""
         query = target_frame, target_time, source_frame, source_time, fixed_frame
         return _poll(lambda: self.can_transform_full_core(*query), timeout, return_debug_tuple)
 
@@ -143,7 +143,7 @@ class Buffer(BufferCore, BufferInterface):
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future:
-        """As `wait_for_transform_async`, for `lookup_transform_full`."""
+        """Work like `wait_for_transform_async`, for `lookup_transform_full`."""
         query = target_frame, target_time, source_frame, source_time, fixed_frame
         return self._future(
             lambda: self.can_transform_full_core(*query), lambda: self.lookup_transform_full_core(*query)

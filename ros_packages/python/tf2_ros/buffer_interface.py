@@ -61,7 +61,7 @@ class BufferInterface:
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
         new_type: type | None = None,
     ) -> Any:
-        """As `transform`, but to target_frame at target_time, assuming that fixed_frame doesn't move."""
+        """Work like `transform`, but to target_frame at target_time, assuming fixed_frame doesn't move."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform_full(

@@ -201,7 +201,7 @@ def concatenate_matrices(*matrices: np.ndarray) -> np.ndarray:
 
 
 def is_same_transform(matrix0: np.ndarray, matrix1: np.ndarray) -> bool:
-    """Whether two matrices are the same transform."""
+    """Return whether two matrices are the same transform."""
     first, second = np.asarray(matrix0, float), np.asarray(matrix1, float)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
 

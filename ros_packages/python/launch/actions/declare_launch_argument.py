@@ -55,7 +55,7 @@ class DeclareLaunchArgument(Action):
 
     @property
     def description(self) -> str:
-        """What the argument is for."""
+        """Return what the argument is for."""
         return self.__description
 
     @property
@@ -64,7 +64,7 @@ class DeclareLaunchArgument(Action):
         return self.__choices
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         known = context.launch_configurations
         if self.name not in known:
             if self.__default is None:

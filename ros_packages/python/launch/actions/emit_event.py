@@ -27,7 +27,7 @@ class EmitEvent(Action):
         return self.__event
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         context.emit_event_sync(self.__event)
 
 
@@ -38,7 +38,7 @@ class Shutdown(EmitEvent):
         super().__init__(event=ShutdownEvent(reason=reason), **kwargs)
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):
             get_logger("launch").info(

@@ -89,17 +89,17 @@ class ExecuteProcess(ProcessRecord):
         return self.final_cmd or self.__cmd
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """As `Action`."""
+        """Work like `Action`."""
         return [] if callable(self.__on_exit) else as_list(self.__on_exit)
 
     def get_asyncio_future(self) -> asyncio.Future | None:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.__completed
 
     # -- execution -----------------------------------------------------------------------------------
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`. Raises RuntimeError the second time."""
+        """Work like `Action`. Raises RuntimeError the second time."""
         if self.__completed is not None:
             raise RuntimeError(
                 f"ExecuteLocal action '{self.final_name}': executed more than once: {self.describe()}"

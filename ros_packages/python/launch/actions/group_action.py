@@ -34,11 +34,11 @@ class GroupAction(Action):
         self.__configurations = dict(launch_configurations or {})
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """As `Action`."""
+        """Work like `Action`."""
         return self.__actions
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """As `Action`."""
+        """Work like `Action`."""
         settings = [SetLaunchConfiguration(name, value) for name, value in self.__configurations.items()]
         if not self.__scoped:
             return [*settings, *self.__actions]

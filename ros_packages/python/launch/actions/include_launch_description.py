@@ -44,11 +44,11 @@ class IncludeLaunchDescription(Action):
         return self.__arguments
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """As `Action`."""
+        """Work like `Action`."""
         return as_list(self.__source.try_get_launch_description_without_context())
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """As `Action`."""
+        """Work like `Action`."""
         description = self.__source.get_launch_description(context)
         before = context.get_locals_as_dict()
         path = os.path.abspath(self.__source.location)

@@ -24,5 +24,5 @@ class LogInfo(Action):
         return self.__msg
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         get_logger("launch.user").info(perform_substitutions(context, self.msg))

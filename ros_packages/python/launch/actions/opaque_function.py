@@ -29,5 +29,5 @@ class OpaqueFunction(Action):
         self.__function, self.__args, self.__kwargs = function, list(args or ()), dict(kwargs or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """As `Action`."""
+        """Work like `Action`."""
         return self.__function(context, *self.__args, **self.__kwargs)

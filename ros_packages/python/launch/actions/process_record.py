@@ -40,11 +40,11 @@ class ProcessRecord(Action):
         return self._return_code
 
     def get_stdout(self) -> str:
-        """What the process has written to stdout. Raises RuntimeError without cached_output=True."""
+        """Return what the process has written to stdout. Raises RuntimeError without cached_output=True."""
         return self._output("stdout")
 
     def get_stderr(self) -> str:
-        """What the process has written to stderr. Raises RuntimeError without cached_output=True."""
+        """Return what the process has written to stderr. Raises RuntimeError without cached_output=True."""
         return self._output("stderr")
 
     def _cache_output(self, wanted: bool) -> None:

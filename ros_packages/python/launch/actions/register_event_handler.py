@@ -24,10 +24,10 @@ class RegisterEventHandler(Action):
         return self.__event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         text, entities = self.__event_handler.describe()
         return [(text, entities)] if entities else []
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         context.register_event_handler(self.__event_handler)

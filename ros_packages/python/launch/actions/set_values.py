@@ -35,7 +35,7 @@ class SetLaunchConfiguration(_SetValue):
     """Sets a launch configuration."""
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         name, value = self._performed(context)
         context.launch_configurations[name] = value
 
@@ -44,7 +44,7 @@ class SetEnvironmentVariable(_SetValue):
     """Sets an environment variable for the processes that are started after it."""
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         name, value = self._performed(context)
         context.environment[name] = value
 
@@ -70,16 +70,16 @@ class AppendEnvironmentVariable(_SetValue):
 
     @property
     def prepend(self) -> Any:
-        """Whether the value comes first."""
+        """Return whether the value comes first."""
         return self.__prepend
 
     @property
     def separator(self) -> list[Substitution]:
-        """What is between the two values."""
+        """Return what is between the two values."""
         return self.__separator
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         name, value = self._performed(context)
         parts = [context.environment[name], value] if name in context.environment else [value]
         if value_of(context, self.__prepend, bool):

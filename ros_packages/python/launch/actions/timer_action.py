@@ -51,15 +51,15 @@ class TimerAction(Action):
         return self.__actions
 
     def describe(self) -> str:
-        """As `Action`."""
+        """Work like `Action`."""
         return f"TimerAction(period={self.__period}, actions=<actions>)"
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return [(f"{self.__period} seconds pass without being canceled", self.__actions)]
 
     def get_asyncio_future(self) -> asyncio.Future | None:
-        """As `LaunchDescriptionEntity`."""
+        """Work like `LaunchDescriptionEntity`."""
         return self.__future
 
     def cancel(self) -> None:
@@ -69,7 +69,7 @@ class TimerAction(Action):
             self.__future.set_result(None)
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         self.__future = context.asyncio_loop.create_future()
         if self.__canceled:
             self.__future.set_result(None)

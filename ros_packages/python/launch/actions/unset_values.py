@@ -26,7 +26,7 @@ class UnsetLaunchConfiguration(_UnsetValue):
     """Removes a launch configuration, if it is set."""
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         context.launch_configurations.pop(perform_substitutions(context, self.name), None)
 
 
@@ -34,7 +34,7 @@ class UnsetEnvironmentVariable(_UnsetValue):
     """Removes an environment variable, if it is set, for the processes that are started after it."""
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         context.environment.pop(perform_substitutions(context, self.name), None)
 
 
@@ -42,7 +42,7 @@ class ResetEnvironment(Action):
     """Gives the processes that are started after it the environment from before the first action."""
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         context._reset_environment()
 
 
@@ -56,7 +56,7 @@ class ResetLaunchConfigurations(Action):
         self.__configurations = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         given = self.__configurations.items()
         kept = {text_of(context, name): text_of(context, value) for name, value in given}
         context.launch_configurations.clear()

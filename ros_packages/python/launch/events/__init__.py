@@ -29,12 +29,12 @@ class Shutdown(Event):
 
     @property
     def reason(self) -> str:
-        """Why."""
+        """Return why."""
         return self.__reason
 
     @property
     def due_to_sigint(self) -> bool:
-        """Whether Ctrl-C was pressed, so that the terminal has sent SIGINT to the processes as well."""
+        """Return whether Ctrl-C was pressed, so that the terminal sent SIGINT to the processes, too."""
         return self.__due_to_sigint
 
 

@@ -16,7 +16,7 @@ class _BooleanSubstitution(Substitution):
         self._operands = [normalize_to_list_of_substitutions(each) for each in args]
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"{type(self).__name__}({' '.join(map(str, self._operands))})"
 
     def _perform(self, context: LaunchContext, combine: Callable[[list[bool]], bool]) -> str:
@@ -39,7 +39,7 @@ class NotSubstitution(_BooleanSubstitution):
         return self._operands[0]
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self._perform(context, lambda values: not values[0])
 
 
@@ -60,7 +60,7 @@ class AndSubstitution(_BooleanSubstitution):
         return self._operands[1]
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self._perform(context, all)
 
 
@@ -68,7 +68,7 @@ class OrSubstitution(AndSubstitution):
     """ "true" if one of the two sides is true, or both are."""
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self._perform(context, any)
 
 
@@ -81,7 +81,7 @@ class AllSubstitution(_BooleanSubstitution):
         return self._operands
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self._perform(context, all)
 
 
@@ -89,5 +89,5 @@ class AnySubstitution(AllSubstitution):
     """ "true" if at least one of the values is true."""
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return self._perform(context, any)

@@ -29,15 +29,15 @@ class Command(Substitution):
 
     @property
     def on_stderr(self) -> list[Substitution]:
-        """What happens if the command writes to stderr."""
+        """Return what happens if the command writes to stderr."""
         return self.__on_stderr
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"Command({describe_substitutions(self.command)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         command = perform_substitutions(context, self.command)
         on_stderr = perform_substitutions(context, self.on_stderr)
         if on_stderr not in ("fail", "ignore", "warn", "capture"):

@@ -31,11 +31,11 @@ class EnvironmentVariable(Substitution):
         return self.__default
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"EnvVar({describe_substitutions(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         name = perform_substitutions(context, self.__name)
         if name in context.environment:
             return context.environment[name]

@@ -46,11 +46,11 @@ class EqualsSubstitution(Substitution):
         return self.__right
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"{type(self).__name__}({self.left} {self.right})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         left, right = (perform_substitutions(context, side) for side in (self.left, self.right))
         if _parse_bool(left) is not None and _parse_bool(right) is not None:
             return str(_parse_bool(left) == _parse_bool(right)).lower()
@@ -63,5 +63,5 @@ class NotEqualsSubstitution(EqualsSubstitution):
     """ "false" if `EqualsSubstitution` is "true", else "true"."""
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return "false" if super().perform(context) == "true" else "true"

@@ -25,11 +25,11 @@ class FileContent(Substitution):
         return self.__path
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"FileContent({describe_substitutions(self.path)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         path = perform_substitutions(context, self.path)
         try:
             return Path(path).read_text(encoding="utf-8")

@@ -26,11 +26,11 @@ class FindExecutable(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"FindExec({describe_substitutions(self.name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         name = perform_substitutions(context, self.name)
         path = shutil.which(name) or shutil.which(name, path=f"{sys.prefix}/bin")
         if path is None:

@@ -38,11 +38,11 @@ class IfElseSubstitution(Substitution):
         return self.__else_value
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"IfElseSubstitution({self.condition}, {self.if_value}, {self.else_value})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         try:
             is_true = value_of(context, self.condition, bool)
         except (TypeError, ValueError) as error:

@@ -31,11 +31,11 @@ class LaunchConfiguration(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"LaunchConfig({describe_substitutions(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         name = perform_substitutions(context, self.__name)
         if name in context.launch_configurations:
             return context.launch_configurations[name]

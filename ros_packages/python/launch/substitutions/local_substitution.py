@@ -20,5 +20,5 @@ class LocalSubstitution(Substitution):
         return self.__expression
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return eval(f"known.{self.expression}", {}, {"known": context.locals})

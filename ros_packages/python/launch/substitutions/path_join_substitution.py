@@ -22,9 +22,9 @@ class PathJoinSubstitution(Substitution):
         return self.__substitutions
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"PathJoin('{describe_substitutions(self.substitutions)}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return os.path.join(*(sub.perform(context) for sub in self.__substitutions))

@@ -38,12 +38,12 @@ class PythonExpression(Substitution):
         return self.__modules
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         modules = ", ".join(sub.describe() for sub in self.python_modules)
         return f"PythonExpr({describe_substitutions(self.expression)}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         names = (module.perform(context) for module in self.__modules)
         known = {name: importlib.import_module(name) for name in names}
         if "math" in known:

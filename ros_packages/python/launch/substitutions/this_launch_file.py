@@ -10,11 +10,11 @@ class _OfThisLaunchFile(Substitution):
     local: str  # its name in the context
 
     def describe(self) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         return f"{type(self).__name__}()"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
+        """Work like `Substitution`."""
         known = context.get_locals_as_dict()
         if self.local not in known:
             raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")

@@ -40,7 +40,7 @@ async def wait_for_stderr(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> bool:
-    """As `wait_for_output`, for stderr."""
+    """Work like `wait_for_output`, for stderr."""
     action = execute_process_action
 
     def accepted() -> bool:
@@ -55,7 +55,7 @@ async def assert_output(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> None:
-    """As `wait_for_output`. Raises AssertionError if it is not accepted in time."""
+    """Work like `wait_for_output`. Raises AssertionError if it is not accepted in time."""
     if not await wait_for_output(launch_context, execute_process_action, validate_output, timeout):
         _refuse(validate_output, execute_process_action.get_stdout(), "stdout")
 
@@ -66,7 +66,7 @@ async def assert_stderr(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> None:
-    """As `assert_output`, for stderr."""
+    """Work like `assert_output`, for stderr."""
     if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
         _refuse(validate_output, execute_process_action.get_stderr(), "stderr")
 
@@ -93,7 +93,7 @@ def wait_for_output_sync(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> bool:
-    """As `wait_for_output`."""
+    """Work like `wait_for_output`."""
     waiting = wait_for_output(launch_context, execute_process_action, validate_output, timeout)
     return _run(launch_context, waiting)
 
@@ -104,7 +104,7 @@ def wait_for_stderr_sync(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> bool:
-    """As `wait_for_stderr`."""
+    """Work like `wait_for_stderr`."""
     waiting = wait_for_stderr(launch_context, execute_process_action, validate_output, timeout)
     return _run(launch_context, waiting)
 
@@ -115,7 +115,7 @@ def assert_output_sync(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> None:
-    """As `assert_output`."""
+    """Work like `assert_output`."""
     _run(launch_context, assert_output(launch_context, execute_process_action, validate_output, timeout))
 
 
@@ -125,21 +125,21 @@ def assert_stderr_sync(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> None:
-    """As `assert_stderr`."""
+    """Work like `assert_stderr`."""
     _run(launch_context, assert_stderr(launch_context, execute_process_action, validate_output, timeout))
 
 
 def wait_for_start_sync(
     launch_context: LaunchContext, execute_process_action: ExecuteProcess, timeout: float | None = None
 ) -> bool:
-    """As `wait_for_start`."""
+    """Work like `wait_for_start`."""
     return _run(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
 
 
 def wait_for_exit_sync(
     launch_context: LaunchContext, execute_process_action: ExecuteProcess, timeout: float | None = None
 ) -> bool:
-    """As `wait_for_exit`."""
+    """Work like `wait_for_exit`."""
     return _run(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
 
 

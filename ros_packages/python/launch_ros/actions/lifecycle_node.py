@@ -36,20 +36,20 @@ class LifecycleNode(Node):
 
     @property
     def node_autostart(self) -> bool | SomeSubstitutionsType:
-        """Whether the node is configured and activated when it starts."""
+        """Return whether the node is configured and activated when it starts."""
         return self.__autostart
 
     @property
     def is_lifecycle_node(self) -> bool:
-        """As `Node`."""
+        """Work like `Node`."""
         return True
 
     def get_lifecycle_event_manager(self) -> LifecycleEventManager | None:
-        """What connects the node with events; None before the action is executed."""
+        """Return what connects the node with events; None before the action is executed."""
         return self.__event_manager
 
     def execute(self, context: LaunchContext) -> list[Action] | None:
-        """As `Action`."""
+        """Work like `Action`."""
         self._expand_name(context)
         if self.UNSPECIFIED_NODE_NAME in self.node_name:
             raise RuntimeError("node_name unexpectedly incomplete for lifecycle node")

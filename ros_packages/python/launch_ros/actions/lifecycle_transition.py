@@ -55,7 +55,7 @@ class LifecycleTransition(Action):
         self.__ids = [normalize_to_list_of_substitutions(text) for text in texts]
 
     def execute(self, context: LaunchContext) -> list[Action]:
-        """As `Action`."""
+        """Work like `Action`."""
         ids = [self.__number(text_of(context, each)) for each in self.__ids]
         first = []
         for name in [text_of(context, each) for each in self.__names]:
@@ -90,7 +90,7 @@ class _Sequence(BaseEventHandler):
         return isinstance(event, StateTransition) and self.__is_node(event.action)
 
     def handle(self, event: Event, context: LaunchContext) -> list[Action]:
-        """As `BaseEventHandler`."""
+        """Work like `BaseEventHandler`."""
         super().handle(event, context)
         if event.goal_state == "errorprocessing":
             get_logger("launch_ros.actions.lifecycle_transition").info(

@@ -82,16 +82,16 @@ class Node(ExecuteProcess):
 
     @property
     def is_lifecycle_node(self) -> bool:
-        """Whether the node has the states of a lifecycle."""
+        """Return whether the node has the states of a lifecycle."""
         return False
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether both name and namespace are specified."""
+        """Return whether both name and namespace are specified."""
         parts = self.UNSPECIFIED_NODE_NAME, self.UNSPECIFIED_NODE_NAMESPACE
         return not any(part in self.node_name for part in parts)
 
     def execute(self, context: LaunchContext) -> list[Action] | None:
-        """As `Action`."""
+        """Work like `Action`."""
         first_time = self.final_cmd is None
         self._expand_name(context)
         if first_time:

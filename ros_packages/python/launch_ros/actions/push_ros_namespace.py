@@ -25,7 +25,7 @@ class PushROSNamespace(Action):
         return self.__namespace
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         pushed, before = text_of(context, self.__namespace), context.launch_configurations.get(NAMESPACE)
         namespace = join_namespaces(before, pushed)
         try:

@@ -30,7 +30,7 @@ class SetParameter(Action):
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         name = text_of(context, self.__name)
         parameters = context.launch_configurations.setdefault(GLOBAL_PARAMETERS, [])
         parameters.append((name, evaluate_parameter(context, name, self.__value)))

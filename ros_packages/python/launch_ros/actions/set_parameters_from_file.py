@@ -20,6 +20,6 @@ class SetParametersFromFile(Action):
         self.__file = normalize_to_list_of_substitutions(filename)
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         parameters = context.launch_configurations.setdefault(GLOBAL_PARAMETERS, [])
         parameters.append(perform_substitutions(context, self.__file))

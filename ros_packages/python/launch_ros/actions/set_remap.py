@@ -31,6 +31,6 @@ class SetRemap(Action):
         return self.__dst
 
     def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
+        """Work like `Action`."""
         remappings = context.launch_configurations.setdefault(REMAPPINGS, [])
         remappings.append((text_of(context, self.__src), text_of(context, self.__dst)))

@@ -109,7 +109,7 @@ class StateTransition(Event):
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """As `launch_ros.events.matches_node_name`, with a warning."""
+    """Work like `launch_ros.events.matches_node_name`, with a warning."""
     warnings.warn(
         "'matches_node_name' has been moved into the 'launch.events' module and will be removed "
         "from the 'lifecycle' module in the future",
