@@ -3,7 +3,8 @@
 from grader.catalog import grade
 from grader.checks.check import Missed, check
 from grader.course_map import course_map
-from grader.exercise import Exercise, Scenario
+from grader.exercise import Exercise
+from grader.scenario import Scenario
 from grader.score import Score
 from grader.tell import tell
 

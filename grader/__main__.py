@@ -8,11 +8,14 @@ import sys
 
 COMMANDS = {  # module, function and arguments
     "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT | --check"),
+    "mark-one": ("grader.marking.extras.one_submission.cli", "main", "SUBMISSION --assignment NAME"),
     "due": ("grader.marking.command.due_cli", "main", "[ASSIGNMENT WHEN]"),
     "hub": ("grader.marking.extras.hub.cli", "main", "[--check]"),
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),
     "collect": ("grader.marking.extras.learning_platform.cli", "collect", "ARCHIVE.zip"),
     "grades": ("grader.marking.extras.learning_platform.cli", "grades", "ASSIGNMENT"),
+    "platform": ("grader.marking.extras.platforms.cli", "main", "gradescope|... ASSIGNMENT"),
+    "likeness": ("grader.marking.extras.likeness.cli", "main", "ASSIGNMENT"),
     "receipts": ("grader.marking.extras.receipts.cli", "receipts", "--issuer TEXT"),
     "verify": ("grader.marking.extras.receipts.cli", "verify", "RECEIPT"),
 }

@@ -18,7 +18,7 @@ def exercises() -> dict[str, Exercise]:
     import grader.exercises as package
 
     found: dict[str, Exercise] = {}
-    for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+    for info in pkgutil.iter_modules(package.__path__, package.__name__ + "."):
         for item in vars(importlib.import_module(info.name)).values():
             if isinstance(item, Exercise) and found.setdefault(item.name, item) is not item:
                 raise ValueError(

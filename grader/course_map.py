@@ -6,10 +6,12 @@ Everything is read from the files of the course; no other state is stored.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
 from grader.course_notebooks import (
+    BRIDGE,
     CHAPTERS,
     DUE,
     PICTURE,
@@ -18,10 +20,12 @@ from grader.course_notebooks import (
     CoursePart,
     Notebook,
     new_versions,
+    part_of,
     picture_of,
     read_chapters,
     read_due_dates,
     read_notebooks,
+    read_offers,
     read_text,
 )
 from grader.course_page import course_page
@@ -36,8 +40,9 @@ class CourseMap:
 
     def __init__(self, root: Path, here: Path) -> None:
         self._root, self._here = root, here
-        self.notebooks = list(read_notebooks(root))
-        self._due = read_due_dates(root / "course" / DUE)
+        due = {name: format_local(when) for name, when in read_due_dates(root / "course" / DUE).items()}
+        found = read_notebooks(root)
+        self.notebooks = [replace(item, due=due.get(item.path.parent.name, "")) for item in found]
         self._new_versions = new_versions(root)
         self._updates = read_text(root / UPDATED).splitlines()
 
@@ -93,17 +98,19 @@ class CourseMap:
 
     def _state(self, item: Notebook) -> str:
         if item.most:
-            due = self._due.get(item.path.parent.name)
-            until = f", due {format_local(due)}" if due else ""
+            until = f", due {item.due}" if item.due else ""
             return f"{format_points(item.points)} of {format_points(item.most)} points{until}"
         return "✔ done" if item.done else f"{item.run} of {item.cells} cells run"
 
     def _parts(self) -> Iterator[CoursePart]:
         """The parts in the order of the course."""
-        for name, notebooks in groupby(self.notebooks, key=lambda item: item.path.parent.name):
-            due = self._due.get(name)
+        offers = read_offers(self._root / "course" / CHAPTERS)
+        pages = {item.path.stem: item for item in self.notebooks if item.path.parent.name == BRIDGE}
+        for _, notebooks in groupby(self.notebooks, key=lambda item: part_of(item.path.parent.name)):
             items = tuple(notebooks)
-            yield CoursePart(name, items, self._picture(name, items), format_local(due) if due else "")
+            name = items[0].path.parent.name
+            offered = tuple(pages[page] for page in offers.get(name, ()) if page in pages)
+            yield CoursePart(name, items, self._picture(name, items), offered)
 
     def _picture(self, name: str, items: tuple[Notebook, ...]) -> str:
         """The SVG of a part's goal; of several lessons, that of the first one that is not done."""

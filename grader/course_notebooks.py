@@ -10,11 +10,13 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-PART = re.compile(r"(\d\d)_(\w+)")
+PART = re.compile(r"(\d\d)[a-z]?_(\w+)")  # a folder: 11_packages; its second assignment: 11b_launching
 # Metadata in the text of a notebook's first cell.
-HALF = re.compile(r"^# Lesson (\d+[a-z]):", re.MULTILINE)  # the number of a lesson with several notebooks
+# The number of one of several notebooks of a lesson, or of its several assignments.
+HALF = re.compile(r"^# (?:Lesson|Assignment) (\d+[a-z]):", re.MULTILINE)
 TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
-NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
+NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+((?:\]\([^)]*\)|[^.])+)\.")
+LINK = re.compile(r"\[([^]]*)\]\([^)]*\)")
 DONE = 0.9  # fraction of a lesson's cells that counts as done
 DUE = "due.json"  # in course/; `python -m grader due` writes it
 CHAPTERS = "chapters.json"  # in course/
@@ -39,6 +41,7 @@ class Notebook:
     run: int
     points: float
     most: float
+    due: str = ""  # of an assignment, in local time; "" if there is no date
 
     @property
     def name(self) -> str:
@@ -60,21 +63,22 @@ class Notebook:
 
     @property
     def done(self) -> bool:
-        """Whether enough cells were run, or all points earned."""
+        """Return whether enough cells were run, or all points earned."""
         return self.points >= self.most if self.most else self.run >= DONE * self.cells > 0
 
 
 @dataclass(frozen=True)
 class CoursePart:
-    """A lesson and its assignments, which are in folders of the same name, such as 01_nodes.
+    """A lesson and its assignments, in folders with the same number: 11_packages, 11b_launching.
 
-    picture: the SVG of the lesson's goal; "" if it has none. due: in local time; "" if there is no date.
+    name: the lesson's folder. picture: the SVG of the lesson's goal; "" if it has none. pages: those of the
+    bridge that can be read after it.
     """
 
     name: str
     notebooks: tuple[Notebook, ...]
     picture: str = ""
-    due: str = ""
+    pages: tuple[Notebook, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -95,6 +99,16 @@ def read_chapters(file: Path) -> list[tuple[str, str, list[str]]]:
         return []
 
 
+def read_offers(file: Path) -> dict[str, list[str]]:
+    """The pages of the bridge that are offered after a part, by the part's name."""
+    try:
+        data = json.loads(read_text(file))
+        offers = [offer for each in data for offer in each.get("pages", {}).items()]
+        return {str(name): [*map(str, pages)] for name, pages in offers}
+    except (ValueError, TypeError, AttributeError):
+        return {}
+
+
 def new_versions(root: Path) -> list[tuple[Path, Path]]:
     """Files that the student has changed, each with its new version, which is saved next to it."""
     found = [path for folder in FOLDERS for path in (root / folder).glob(f"*/*{NEW_VERSION}.*")]
@@ -111,7 +125,7 @@ def read_text(file: Path) -> str:
 
 
 def read_due_dates(file: Path) -> dict[str, datetime]:
-    """When the assignments are due (UTC), as the instructor wrote it."""
+    """Return when the assignments are due (UTC), as the instructor wrote it."""
     try:
         data = json.loads(file.read_text(encoding="utf-8"))
         return {name: datetime.fromisoformat(when) for name, when in data.items()}
@@ -131,9 +145,16 @@ def read_notebooks(root: Path) -> Iterator[Notebook]:
             continue  # invalid; JupyterLab reports it when it is opened
 
 
-def course_order(path: Path) -> tuple[str, str, bool, str]:
-    """Sorts notebooks: by lesson; the lesson before its assignment; of several notebooks FIRST first."""
-    return path.parent.name, path.parent.parent.name, path.name != FIRST, path.name
+def course_order(path: Path) -> tuple[str, str, str, bool, str]:
+    """Sorts notebooks: by lesson; the lesson before its assignments; of several notebooks FIRST first."""
+    folder = path.parent
+    return part_of(folder.name), folder.parent.name, folder.name, path.name != FIRST, path.name
+
+
+def part_of(folder: str) -> str:
+    """The number of a folder's lesson, which its assignments have, too; for the bridge its name."""
+    found = PART.fullmatch(folder)
+    return found[1] if found else folder
 
 
 def picture_of(notebook: Path) -> Path:
@@ -142,7 +163,7 @@ def picture_of(notebook: Path) -> Path:
 
 
 def _is_part(path: Path) -> bool:
-    """Whether it is in a lesson's folder, or a page of the bridge."""
+    """Return whether it is in a lesson's folder, or a page of the bridge."""
     numbered = path.stem if path.parent.name == BRIDGE else path.parent.name
     return PART.fullmatch(numbered) is not None
 
@@ -174,13 +195,14 @@ def _number(path: Path, text: str) -> str:
 
 
 def _phrase(pattern: re.Pattern[str], text: str) -> str:
-    """The first match of the pattern, on one line; "" without a match."""
-    return " ".join(next(iter(pattern.findall(text)), "").replace("`", "").split())
+    """The first match of the pattern, on one line and without links; "" without a match."""
+    found = LINK.sub(r"\1", next(iter(pattern.findall(text)), ""))
+    return " ".join(found.replace("`", "").split())
 
 
 def _earned(cell: dict[str, Any]) -> float:
     """The points in the output of a test cell; 0 without a score."""
-    most = cell["metadata"]["nbgrader"].get("points", 0)
+    most: float = cell["metadata"]["nbgrader"].get("points", 0)
     for output in cell.get("outputs", []):
         text = "".join(output.get("data", {}).get("text/plain", ""))
         if output["output_type"] == "execute_result" and re.fullmatch(r"\d+(\.\d+)?", text):

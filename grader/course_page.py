@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from grader.course_notebooks import Chapter, CoursePart, Notebook
+from grader.course_notebooks import BRIDGE, Chapter, CoursePart, Notebook
 from grader.page import format_points
 
 RING = 100  # length of the ring, so that it can be given in percent
@@ -73,12 +73,20 @@ def _chapter(chapter: Chapter, following: Notebook | None, address: Text) -> str
 def _card(part: CoursePart, following: Notebook | None, address: Text) -> str:
     lessons = [item for item in part.notebooks if not item.most]
     rows = [_lesson(item, address) for item in lessons]
-    rows += [_exercises(item, part.due, address) for item in part.notebooks if item.most]
-    needs = next((item.needs for item in lessons if item.needs), "")
+    tasks = [item for item in part.notebooks if item.most]
+    for item in tasks:
+        rows.append(_exercises(item, f"Exercises {item.number}" if tasks[1:] else "Exercises", address))
+    needs = "" if part.name == BRIDGE else next((item.needs for item in lessons if item.needs), "")
     after = f'<p class="needs">Before: {html.escape(needs)}</p>' if needs else ""
     now = following is not None and following in part.notebooks
     kind = " done" if all(item.done for item in part.notebooks) else " now" if now else ""
-    return f'<li class="card{kind}">{_picture(part)}{"".join(rows)}{after}</li>'
+    return f'<li class="card{kind}">{_picture(part)}{"".join(rows)}{_pages(part, address)}{after}</li>'
+
+
+def _pages(part: CoursePart, address: Text) -> str:
+    """The pages of the bridge that are offered after this lesson."""
+    links = [f"<li>{_link(address(page.path), page.heading)} {_time(page)}</li>" for page in part.pages]
+    return f'<div class="pages">If you like, afterwards:<ul>{"".join(links)}</ul></div>' if links else ""
 
 
 def _picture(part: CoursePart) -> str:
@@ -105,12 +113,12 @@ def _ring(share: float, state: str) -> str:
     return f'<svg class="ring" viewBox="0 0 36 36" {label}{circle}/>{run if share else ""}{tick}</svg>'
 
 
-def _exercises(item: Notebook, due: str, address: Text) -> str:
+def _exercises(item: Notebook, name: str, address: Text) -> str:
     share = 100 * item.points / item.most
     points = f"{format_points(item.points)} of {format_points(item.most)} points"
-    until = f'<span class="due">due {html.escape(due)}</span>' if due else ""
+    until = f'<span class="due">due {html.escape(item.due)}</span>' if item.due else ""
     return (
-        f'<div class="exercises">{_link(address(item.path), "Exercises")}{_time(item)}'
+        f'<div class="exercises">{_link(address(item.path), name)}{_time(item)}'
         f'<span class="bar" aria-hidden="true"><i style="width: {share:.0f}%"></i></span>'
         f"<span>{points}</span>{until}</div>"
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, cast
 
 from grader import seeds
 from grader.checks.check import Check, Hints, new_check
@@ -124,12 +124,12 @@ class Exercise:
 
     @property
     def points(self) -> float:
-        """What can be reached."""
+        """Return what can be reached."""
         return sum(item.points for item in self.checks)
 
     @property
     def varies(self) -> bool:
-        """Whether the right answer depends on what a run shows, and not on the task's text alone.
+        """Return whether the right answer depends on what a run shows, and not on the task's text alone.
 
         Something varies if the course sends messages, draws the world from a seed, or builds a package.
         """
@@ -139,8 +139,8 @@ class Exercise:
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
         """Scenarios with their seeds: public ones, or private ones from a secret."""
-        about = {"network": self.network, "waits": self.waits}
-        one = Scenario(self.world, self.seconds, 0, self.companions, self.until, **about)
+        common = self.world, self.seconds, 0, self.companions, self.until
+        one = Scenario(*common, network=self.network, waits=self.waits)
         public = [(scenario, scenario.seed) for scenario in self.scenarios] or [(one, s) for s in self.seeds]
         if not secret:
             return public
@@ -153,7 +153,7 @@ class Exercise:
         """
         grading = current_grading()
         if grading.hand_over is not None:
-            return grading.hand_over(self.name, nodes)
+            return cast("Score", grading.hand_over(self.name, nodes))
         return self.judge(LocalPrograms(nodes), grading.secret)
 
     def in_order(self, *nodes: Any, order: int | str) -> tuple[Recording, bool]:
@@ -186,7 +186,7 @@ class Exercise:
             return score
 
     def _score(self, source: ProgramSource, secret: str, found: Any, order: str | None) -> Score:
-        """What the programs earn, or those of the package that was found."""
+        """Return what the programs earn, or those of the package that was found."""
         if isinstance(found, Fault):
             reason = "Not graded: there is nothing to run."
             verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]

@@ -12,7 +12,7 @@ from sim.notebook import find_outdated
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
-    """Why the first invalid argument can't be run; None if all are valid."""
+    """Return why the first invalid argument can't be run; None if all are valid."""
     if not nodes:
         return unusable_argument(
             "nothing", "Put the name of your class between the parentheses: grade(MyNode)."

@@ -18,7 +18,7 @@ VARIABLE = "COURSE_SECRET"  # the environment of the kernels in which nbgrader m
 
 @dataclass(frozen=True)
 class Grading:
-    """How a process grades.
+    """The way a process grades.
 
     secret: worlds and seeds are derived from it; "" for the public ones. hand_over: called with the name of
     the exercise and the nodes in place of judging them here.

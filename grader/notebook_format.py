@@ -13,6 +13,7 @@ import re
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 import nbformat
 
@@ -57,10 +58,10 @@ def normalized(text: str, name: str) -> str:
     except nbformat.ValidationError as error:
         problem = f"{name} is not a valid notebook: {str(error).splitlines()[0]}."
         raise InvalidNotebook(f"{problem} Repair it, or take it from git.") from None
-    return nbformat.writes(node) + "\n"
+    return f"{nbformat.writes(node)}\n"
 
 
-def cell_ids(cells: list[dict]) -> list[str]:
+def cell_ids(cells: list[dict[str, Any]]) -> list[str]:
     """Return one id per cell: its own if it is valid and unique, else one from its grade_id or a number."""
     ids: list[str] = []
     reserved = {cell.get("id") for cell in cells}
@@ -73,7 +74,7 @@ def cell_ids(cells: list[dict]) -> list[str]:
     return ids
 
 
-def _new_ids(cell: dict) -> Iterator[str]:
+def _new_ids(cell: dict[str, Any]) -> Iterator[str]:
     grade_id = cell.get("metadata", {}).get("nbgrader", {}).get("grade_id", "")
     stem = re.sub(r"[^a-zA-Z0-9_-]+", "-", grade_id)[:56]
     if stem:

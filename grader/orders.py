@@ -47,7 +47,7 @@ def without_late_start(order: str) -> str:
 
 @dataclass(frozen=True)
 class OrderDifference:
-    """Why nodes miss points in another order alone: for the student, as text and as HTML.
+    """The reason why nodes miss points in another order alone: for the student, as text and as HTML.
 
     run: the index of the exercise's run. usual, other: that run in both orders. public: its world is no
     secret, so that the student may try the order.
@@ -107,6 +107,7 @@ def _fewest_differences(
 ) -> Recording:
     """The run with the fewest departures in which one of these checks still misses."""
     best, whole, runs = recording, Order.parse(order), 0
+    assert whole is not None, "the usual order has no departures"
     most = min(MOST_RUNS, int(MOST_SECONDS / max(recording.stamp, 1.0)))
 
     def fails(ids: list[str]) -> bool:

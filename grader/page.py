@@ -86,8 +86,8 @@ def text(
 
 
 def status_key(verdict: Verdict) -> str:
-    """The key in STATUS_STYLES: the status, or "partly" for a missed check with partial credit."""
-    return "partly" if verdict.status == "failed" and verdict.credit > 0 else verdict.status
+    """The key in STATUS_STYLES: the status, or "partly" for a missed or skipped check with partial credit."""
+    return "partly" if verdict.status in ("failed", "skipped") and verdict.credit > 0 else verdict.status
 
 
 def details(verdict: Verdict, runs: Sequence[str] = ()) -> Iterator[tuple[str, str]]:
@@ -110,15 +110,10 @@ def _points(verdict: Verdict) -> str:
     return f"{format_points(verdict.earned)} / {format_points(verdict.points)}" if verdict.points else ""
 
 
-def moments(verdict: Verdict) -> list[float]:
-    """The moments (s) that the text of a missed check names: what was seen, or else what was expected.
-
-    Without any, when the part of the run began that it speaks of.
-    """
-    if verdict.status != "failed":
-        return []
+def named_moments(verdict: Verdict) -> list[float]:
+    """The moments (s) that the text of a check names: what was seen, or else what was expected."""
     found = MOMENT.findall(verdict.saw) or MOMENT.findall(verdict.expected)
-    return [float(seconds) for seconds in found] or [verdict.begin] * (verdict.begin is not None)
+    return [float(seconds) for seconds in found]
 
 
 def _row(verdict: Verdict, runs: Sequence[str], below: str, replay: str) -> str:

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.checks.verdicts import Verdict
-from grader.page import moments
+from grader.deciding_moment import deciding_moment
+from grader.page import named_moments
 from sim.evidence import Recording
 from sim.evidence.connections import missing
 
@@ -24,20 +25,33 @@ def score_pictures(verdicts: Sequence[Verdict], recordings: Sequence[Recording])
         if verdict.picture and verdict.run < len(recordings):
             wanted.setdefault(verdict.picture, verdict)
     return [
-        _picture(kind, recordings[verdict.run], missed_moments(verdicts, verdict.run))
-        for kind, verdict in wanted.items()
+        _picture(kind, recordings[number], missed_moments(verdicts, number, recordings[number]))
+        for kind, number in ((kind, verdict.run) for kind, verdict in wanted.items())
     ]
 
 
-def missed_moments(verdicts: Sequence[Verdict], run: int) -> list[tuple[float, str]]:
-    """The moments (s) that the missed checks of a run name, with what they say, in order; each once."""
-    found = [
-        (stamp, f"{verdict.sentence} {verdict.saw}")
-        for verdict in verdicts
-        if verdict.run == run
-        for stamp in moments(verdict)
-    ]
-    return sorted({stamp: text for stamp, text in reversed(found)}.items())[:MOMENTS]
+def missed_moments(
+    verdicts: Sequence[Verdict], number: int, recording: Recording
+) -> list[tuple[float, str]]:
+    """The moments (s) of a run's missed checks, with what they say, in order; each once.
+
+    They are those that the texts name. A miss about a part of the run has the moment that shows it, or else
+    when the part began; one about the whole run counts only where there is no other.
+    """
+    found: list[tuple[float, str]] = []
+    whole: list[tuple[float, str]] = []
+    for verdict in verdicts:
+        if verdict.run != number or verdict.status != "failed":
+            continue
+        text = f"{verdict.sentence} {verdict.saw}"
+        named = named_moments(verdict)
+        found += [(stamp, text) for stamp in named]
+        part = recording if verdict.begin is None else recording.during(verdict.begin)
+        shown = None if named else deciding_moment(verdict, part)
+        shown = verdict.begin if shown is None and not named else shown
+        if shown is not None:
+            (whole if verdict.begin is None else found).append((shown, text))
+    return sorted({stamp: text for stamp, text in reversed(found or whole[:1])}.items())[:MOMENTS]
 
 
 def replay_keys(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> dict[int, str]:
@@ -49,10 +63,12 @@ def replay_keys(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) ->
 
 
 def _picture(kind: str, recording: Recording, missed: list[tuple[float, str]]) -> tuple[str, Any]:
-    from sim.view import plot_topics
+    from sim.view import plot_signal, plot_topics
 
     if kind == "path":
         return "The robot's path, seen from above", recording.replay(moments=missed)
+    if kind.startswith("/"):
+        return f"The numbers on {kind}", plot_signal(recording, kind)
     return "What was published, and when", plot_topics(recording)
 
 

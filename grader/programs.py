@@ -31,10 +31,10 @@ class ProgramSource(Protocol):
     """The student's programs, wherever they live."""
 
     def refusal(self) -> Fault | None:
-        """Why they can't be run; None when they can."""
+        """Return why they can't be run; None when they can."""
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
-        """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
+        """Return what `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
 
     def package(
         self, name: str, build_type: str, uses: Interfaces | None = None, corrections: Corrections = ()
@@ -47,7 +47,7 @@ class ProgramSource(Protocol):
         """
 
     def leave(self) -> None:
-        """What `package` installed is needed no more."""
+        """Remove what `package` installed: it is needed no more."""
 
 
 class LocalPrograms:
@@ -165,7 +165,7 @@ def _refuse_to_build(_: Any) -> NoReturn:
 
 
 def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:
-    """What the other process answers: what it saw instead of programs, and a hint; None when all is well."""
+    """Return the other process's answer: what it saw instead of programs, and a hint; None if all is well."""
     fault = refusal(nodes)
     return None if fault is None else [fault.saw, fault.hint]
 
@@ -177,5 +177,5 @@ def serialize_preparation(prepare: Prepare | None) -> list[Any]:
 
 
 def _name(function: Callable[..., Any]) -> str:
-    """What the other process finds the function by."""
+    """Return what the other process finds the function by."""
     return f"{function.__module__}:{function.__qualname__}"

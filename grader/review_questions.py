@@ -5,13 +5,14 @@ Each notebook's folder has its predictions in predictions.json, which `sim.view.
 
 from __future__ import annotations
 
+import ast
 import datetime
 import html
 import json
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 FILE = "predictions.json"
@@ -21,7 +22,10 @@ MOST = 3
 
 @dataclass(frozen=True)
 class ReviewQuestion:
-    """A prediction whose outcome is known. days: since it was made. lesson: the name of its folder."""
+    """A prediction whose outcome is known.
+
+    days: since it was made. lesson: the name of its folder. notebook: the name of the file that asks it.
+    """
 
     lesson: str
     question: str
@@ -29,6 +33,7 @@ class ReviewQuestion:
     predicted: str
     happened: str
     days: int
+    notebook: str = "lesson.ipynb"
 
     @property
     def urgency(self) -> tuple[bool, bool, int]:
@@ -38,7 +43,8 @@ class ReviewQuestion:
 
 def review_questions(course: Path, today: datetime.date) -> list[ReviewQuestion]:
     """At most three questions for this day, from the predictions that the lessons in `course` saved."""
-    return sorted(_all(course, today), key=lambda item: item.urgency)[:MOST]
+    chosen = sorted(_all(course, today), key=lambda item: item.urgency)[:MOST]
+    return [replace(item, notebook=_notebook_of(item, course)) for item in chosen]
 
 
 def review_html(questions: list[ReviewQuestion]) -> str:
@@ -50,13 +56,25 @@ def review_html(questions: list[ReviewQuestion]) -> str:
 
 def _details(item: ReviewQuestion) -> str:
     answers = "".join(f"<li>{_text(letter)} {_text(answer)}</li>" for letter, answer in item.answers.items())
-    address = f"{item.lesson}/lesson.ipynb"
+    address = f"{item.lesson}/{item.notebook}"
     return (
         f"<details><summary>{_text(item.question)}</summary><ul>{answers}</ul>"
         f"<details><summary>What happened</summary><p><b>{_text(item.happened)}</b>"
         f" {_text(item.answers[item.happened])}. You predicted {_text(item.predicted)}, in"
         f' <a href="{html.escape(address)}">{html.escape(item.lesson)}</a>.</p></details></details>\n'
     )
+
+
+def _notebook_of(item: ReviewQuestion, course: Path) -> str:
+    """The name of the notebook that asks the question: a folder may have several."""
+    for path in sorted((course / item.lesson).glob("*.ipynb")):
+        with suppress(OSError, ValueError, TypeError, KeyError, SyntaxError):
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+            sources = ["".join(cell["source"]) for cell in cells]
+            nodes = [node for text in sources if "predict(" in text for node in ast.walk(ast.parse(text))]
+            if any(isinstance(node, ast.Constant) and node.value == item.question for node in nodes):
+                return path.name
+    return item.notebook
 
 
 def _text(markdown: str) -> str:

@@ -60,8 +60,8 @@ class Score(float):
 
     def with_verdicts(self, verdicts: Iterable[Verdict]) -> Score:
         """Return the same score with other verdicts on its recordings."""
-        more = {"title": self.title, "differences": self.differences}
-        return Score(self.exercise, verdicts, self.recordings, **more)
+        common = self.exercise, verdicts, self.recordings
+        return Score(*common, title=self.title, differences=self.differences)
 
     @property
     def broken(self) -> list[Verdict]:
@@ -75,7 +75,7 @@ class Score(float):
 
     @property
     def pictures(self) -> list[tuple[str, Any]]:
-        """Where a picture says more than words: pairs of a caption and what Jupyter displays, each once.
+        """Return pictures that say more than words: pairs of a caption and what Jupyter displays, each once.
 
         Of a drive it is the replay, so that one sees when it went wrong; it holds a PNG for pages without
         scripts.
@@ -87,7 +87,7 @@ class Score(float):
 
     @cached_property
     def _graph(self) -> tuple[int, str]:
-        """Which verdict the graph of its run explains, and that as HTML."""
+        """Return which verdict the graph of its run explains, and that as HTML."""
         from grader.pictures import graph_of_missed_check
 
         with redirect_stderr():
@@ -116,7 +116,7 @@ class Score(float):
 
     @property
     def _runs(self) -> list[str]:
-        """What to call each run; nothing to tell apart where there is only one."""
+        """Return what to call each run; nothing to tell apart where there is only one."""
         count = len(self.recordings)
         return [_run(recording, f"{n} of {count}") for n, recording in enumerate(self.recordings, 1)] * (
             count > 1
@@ -124,7 +124,7 @@ class Score(float):
 
     @property
     def _note(self) -> str:
-        """Why it is less than the sum of its lines; "" where it isn't."""
+        """Return why it is less than the sum of its lines; "" where it isn't."""
         missed = next((verdict.sentence for verdict in self.verdicts if verdict.unsafe), "")
         most = f"at most {UNSAFE:.0%} of the points"
         return f"Safety comes first: without “{missed.rstrip('.')}” there are {most}." if self.capped else ""

@@ -32,6 +32,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         if isinstance(found, Fault):
             print(BEGIN if found.sentence == NOT_STARTED else f"{found.saw}\nHint: {found.hint}")
             return Recording()
+        assert found is not None, "only exercises with a package are looked at"
         if exercise.build_type == CMAKE:
             _print_definitions(found)
             print(found.built.problem or f"Built: {', '.join(type_names(found.built.files))}")

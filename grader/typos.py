@@ -57,7 +57,7 @@ def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
 
 
 def _is_of_a_value(error: CallbackError) -> bool:
-    """Whether a parameter got 1 or "1.0" in place of 1.0, or has a default of 1 and got 0.5."""
+    """Return whether a parameter got 1 or "1.0" in place of 1.0, or has a default of 1 and got 0.5."""
     found = _OF_A_VALUE.search(error.text) if error.type == "InvalidParameterTypeException" else None
     return found is not None and re.fullmatch(r"\s*[+-]?\d+\.?\d*\s*", found[1]) is not None
 

@@ -15,6 +15,7 @@ from typing import Any
 
 from grader.notebook_format import InvalidNotebook, normalized
 
+CHOSEN = "ROS2_COURSE_WORK"  # an environment variable: the folder that the student chose
 FOLDER = "work"
 FOLDER_IN_HOME = "ros2-course"
 SOURCES = ("course", "exercises")
@@ -25,7 +26,9 @@ GENERATED = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws", "pr
 
 
 def find_work_folder(course: Path) -> Path:
-    """Where the student's copies are: in the course's folder, or in the home if that can't be changed."""
+    """Return where the student's copies are: as the student chose, in the course's folder, or in the home."""
+    if chosen := os.environ.get(CHOSEN):
+        return Path(chosen)
     if os.access(course, os.W_OK):
         return course / FOLDER
     return Path.home() / FOLDER_IN_HOME
@@ -38,7 +41,7 @@ def update_work_folder(course: Path) -> list[str]:
     that was run and is updated.
     """
     work = find_work_folder(course)
-    work.mkdir(exist_ok=True)
+    work.mkdir(parents=True, exist_ok=True)
     record = work / RECORD
     copied = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
     notices, renewed = [], []

@@ -37,7 +37,6 @@ from grader.checks.motion import (
 )
 from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.people import Encounter, nearest_person
-from grader.checks.questions import Question, questions
 from grader.checks.services import calls, course_calls, offers, responds, serves, wrong_response
 from grader.checks.shift import Job, Shift, ShiftProgram, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
@@ -49,7 +48,6 @@ __all__ = [
     "Job",
     "LogMatch",
     "Missed",
-    "Question",
     "Shift",
     "ShiftProgram",
     "Verdict",
@@ -88,7 +86,6 @@ __all__ = [
     "passes",
     "places",
     "publishes",
-    "questions",
     "rate",
     "rejects",
     "responds",

@@ -207,7 +207,7 @@ def _named(goal: Goal) -> str:
 
 
 def state(goal: Goal) -> str:
-    """How far a goal came, in words: "succeeded at 4 s"."""
+    """Return how far a goal came, in words: "succeeded at 4 s"."""
     if not goal.status:
         return "no decision on it" if goal.server else "no server received the goal"
     if goal.over:

@@ -40,7 +40,7 @@ def own_verdict(run: Recording, file: str) -> TestVerdict:
 def candidate_verdicts(
     run: Recording, truth: Sequence[tuple[bool, str]], hint: str
 ) -> list[tuple[bool, TestVerdict]]:
-    """Whether a candidate is right, and the verdict on it. Raises Missed, with the hint, if one has none."""
+    """Return whether a candidate is right, and its verdict. Raises Missed, with the hint, if it has none."""
     found = _verdicts(run)
     for number in range(1, len(truth) + 1):
         if str(number) not in found:

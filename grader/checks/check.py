@@ -8,11 +8,12 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 from sim.evidence import Recording, Seconds
 
-Picture = Literal["", "path", "topics"]
+Picture = str
+"""How to show a miss: the run's "path", its "topics" over time, or a topic's numbers, by its name; or ""."""
 
 Hints = Mapping[str, Callable[..., Any]]
 """A check's table of hints: each sentence with a function that tells whether its cause explains a miss.
@@ -39,7 +40,7 @@ class Missed(Exception):
         takes its place, and after that the `guess`: what is most likely missing.
     about: what the check's table of hints is given to find the cause, such as a stimulus.
     credit: the fraction 0..1 of the check's points that is earned all the same.
-    picture: "path" or "topics" where a figure of the recording says more than words.
+    picture: of the recording, where a figure says more than words; see `Picture`.
     measured: with a credit, what checks that come after this one are handed.
     typo: a name that was misspelt, and the right one; or the type Float32 where Float64 is wanted, or
         the other way round.
@@ -70,7 +71,7 @@ class Missed(Exception):
 
     @property
     def begin(self) -> Seconds | None:
-        """When the part of the run began that the check looked at when it raised this; None for all of it."""
+        """Return when the part of the run began that the check was judging; None for all of it."""
         frames = [frame for frame, _ in traceback.walk_tb(self.__traceback__)]
         looked_at = [
             value
@@ -114,7 +115,7 @@ class Check:
     hints: Hints = field(default_factory=dict, compare=False)
 
     def __call__(self, recording: Recording, *measured: Any) -> Any:
-        """What the function measured. Raises Missed, or whatever a faulty check raises."""
+        """Return what the function measured. Raises Missed, or whatever a faulty check raises."""
         try:
             return self.function(recording, *measured)
         except Missed as missed:
@@ -124,11 +125,11 @@ class Check:
 
     @property
     def takes_measured(self) -> int:
-        """How many results of `after` the function takes: all of them, or none."""
+        """Return how many results of `after` the function takes: all of them, or none."""
         return len(inspect.signature(self.function).parameters) - 1
 
     def holds_in(self, scenario: str) -> bool:
-        """Whether it is judged in the scenario of this name."""
+        """Return whether it is judged in the scenario of this name."""
         return not self.only or scenario in self.only
 
 
@@ -177,13 +178,13 @@ def new_check(
     return made
 
 
-def check(*, points: float, after: Check | tuple[Check, ...] = ()) -> Callable[[Callable], Check]:
+def check(*, points: float, after: Check | tuple[Check, ...] = ()) -> Callable[[Callable[..., Any]], Check]:
     """Make a check of a function, as `new_check` does."""
     return lambda function: new_check(function, points, after)
 
 
 def _takes(function: Callable[..., Any], *arguments: Any) -> bool:
-    """Whether a function can be called with these positional arguments."""
+    """Return whether a function can be called with these positional arguments."""
     try:
         inspect.signature(function).bind(*arguments)
     except TypeError:

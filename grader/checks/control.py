@@ -48,7 +48,7 @@ def places(run: Recording) -> Curve:
 
 
 def fell_at(run: Recording) -> Seconds | None:
-    """When the pole leant by more than 0.5 rad for the first time; None where it stood. Needs a pole."""
+    """Return when the pole first leant by more than 0.5 rad; None where it stood. Needs a pole."""
     angles = lean(run)
     if not angles:
         raise ValueError("this run has no pole: give the exercise a world that has one")
@@ -77,7 +77,7 @@ def still_stands(run: Recording) -> None:
 
 
 def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float) -> Seconds:
-    """How long it takes the cart, from the recording's begin on, to be near a place for good.
+    """Return how long it takes the cart, from the recording's begin on, to be near a place for good.
 
     Raises Missed where it takes longer than `seconds`.
     """
@@ -95,7 +95,7 @@ def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float
 
 
 def overshoots(run: Recording, target: float, *, most: float) -> float:
-    """How far (m) the cart goes beyond a place, as seen from where it is at the begin. Missed if too far."""
+    """Return how far (m) the cart goes beyond a place, seen from where it begins. Missed if too far."""
     curve = places(run)
     side = math.copysign(1.0, target - curve[0][1])
     beyond = max((side * (x - target), stamp) for stamp, x in curve)
@@ -140,7 +140,7 @@ def keeps_deadline(
 
 
 def _place_is_turned(run: Recording, fell: Seconds) -> bool:
-    """Whether efforts grow to the left the farther to the right the cart is, by a fit to the joint states."""
+    """Return whether efforts grow to the left as the cart moves right, by a fit to the joint states."""
     states = [row for row in run.messages("/joint_states") if row.stamp < fell]
     stamps = [row.stamp for row in states]
     sent = [(bisect.bisect_right(stamps, row.stamp), row) for row in run.messages(EFFORT) if row.stamp < fell]
@@ -169,6 +169,7 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
             f"The efforts were too rare: up to {slow:.2g} s passed between two of them, and the pole falls "
             "in the meantime. Publish one for each joint state, and let nothing block the loop."
         )
+    assert run.world is not None and run.world.machine is not None, "a cart is in a world, and is a machine"
     end = run.world.machine.track_length / 2
     if any(not is_near(x, 0.0, end - 0.01) for stamp, x in places(run) if stamp <= fell):
         rolled = "The cart rolled to the end of the track, which stopped it."

@@ -53,7 +53,7 @@ def plain(message: Any) -> dict[str, Any]:
 
 
 def _parameters(kind: str, items: Any) -> dict[str, Any]:
-    """What a field of the services of parameters says; {} for any other field."""
+    """Return what a field of the services of parameters says; {} for any other field."""
     if kind == "sequence<rcl_interfaces/Parameter>":
         return {item.name: _value(item.value) for item in items}
     if kind == "sequence<rcl_interfaces/ParameterValue>":
@@ -66,7 +66,7 @@ def _parameters(kind: str, items: Any) -> dict[str, Any]:
 
 
 def _value(value: Any) -> Any:
-    """What a ParameterValue holds; None where it is not set."""
+    """Return what a ParameterValue holds; None where it is not set."""
     return read(value, _VALUE[value.type]) if value.type else None
 
 

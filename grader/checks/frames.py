@@ -35,14 +35,15 @@ class Broadcast(NamedTuple):
 
     @property
     def pose(self) -> Pose2D:
-        """Where the child is in the parent."""
+        """Return where the child is in the parent."""
         return Pose2D.from_message(self.message.transform)
 
     @property
     def is_rotation(self) -> bool:
-        """Whether its quaternion has length 1."""
+        """Return whether its quaternion has length 1."""
         turn = self.message.transform.rotation
-        return abs(turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2 - 1.0) < UNIT
+        squared: float = turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2
+        return abs(squared - 1.0) < UNIT
 
 
 def broadcasts(run: Recording, topic: str, child: str = "", *, from_course: bool = False) -> list[Broadcast]:

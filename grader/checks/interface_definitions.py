@@ -109,7 +109,7 @@ def _read(line: str, number: int, package: str) -> Field | Constant:
 
 
 def _form(line: str) -> str:
-    """Why a line has not even the form of one; "" for one that rosidl may look at."""
+    """Return why a line has not even the form of one; "" for one that rosidl may look at."""
     kind, _, rest = line.partition(" ")
     name, *value = re.split(r"[\s=]", rest.strip(), maxsplit=1)
     if len(line) > LONGEST:
@@ -140,7 +140,7 @@ def _form(line: str) -> str:
 
 
 def _reason(line: str, error: Exception) -> str:
-    """What to do about a line that rosidl has refused."""
+    """Return what to do about a line that rosidl has refused."""
     kind = line.partition(" ")[0]
     long = re.fullmatch(r"(\w+)/(?:msg|srv|action)/(\w+.*)", kind)
     if long:

@@ -36,20 +36,21 @@ def described_limits(recording: Recording) -> dict[str, JointLimits]:
     joints = ElementTree.fromstring(text).iterfind("joint[limit]")
     limits = {joint.get("name", ""): joint.find("limit") for joint in joints}
     return {
-        name: JointLimits(float(limit.get("lower")), float(limit.get("upper")))
+        name: JointLimits(float(limit.get("lower", 0.0)), float(limit.get("upper", 0.0)))
         for name, limit in limits.items()
+        if limit is not None
     }
 
 
 def tip_path(recording: Recording) -> list[Pose]:
-    """Where the tip was, all the time. Raises ValueError for a run without an arm."""
+    """Return where the tip was, all the time. Raises ValueError for a run without an arm."""
     if not recording.tip:
         raise ValueError("this run has no arm: give the exercise a world with a machine made of links")
     return recording.tip
 
 
 def tip_at(recording: Recording, stamp: Seconds) -> Pose:
-    """Where the tip was at a time: its last pose up to then, or its first.
+    """Return where the tip was at a time: its last pose up to then, or its first.
 
     Of a single joint, yaw is its angle (rad).
     """
@@ -77,12 +78,13 @@ def commands_within(
 
 def keeps_off(recording: Recording, hint: str = "") -> None:
     """No link of the arm crosses a wall. Raises Missed with the first moment that one does, and this hint."""
-    ends = tip_path(recording)
-    bodies = [body.name for body in recording.world.bodies]
+    ends, world = tip_path(recording), recording.world
+    assert world is not None, "an arm is in a world"
+    bodies = [body.name for body in world.bodies]
     for index, end in enumerate(ends):
         places = [recording.tracks[name][index][1:3] for name in bodies] + [(end.x, end.y)]
         for name, begin, finish in zip(bodies, places, places[1:], strict=False):
-            if any(_cross(begin, finish, *wall) for wall in recording.world.walls):
+            if any(_cross(begin, finish, *wall) for wall in world.walls):
                 raise Missed(
                     "an arm that touches nothing",
                     f"its {name} in the wall at {end.stamp:.3g} s, between ({begin[0]:.2f}, {begin[1]:.2f}) "
@@ -101,8 +103,8 @@ def draws(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.0
     """
     path = tip_path(recording)
     tip = np.array([(pose.x, pose.y) for pose in path])
-    wanted = _filled(line, tolerance / 2)
-    gaps = np.linalg.norm(wanted[:, None, :] - _filled(tip, tolerance / 2)[None], axis=2).min(axis=1)
+    wanted, drawn_points = _filled(line, tolerance / 2), _filled(tip, tolerance / 2)
+    gaps = np.linalg.norm(wanted[:, None, :] - drawn_points[None], axis=2).min(axis=1)
     drawn = float((gaps <= tolerance).mean())
     if drawn < 1.0:
         x, y = wanted[int(np.argmax(gaps))]
@@ -128,7 +130,7 @@ def draws(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.0
     return float(away[worst])
 
 
-def _filled(line: Sequence[Point], step: float) -> np.ndarray:
+def _filled(line: Sequence[Point] | np.ndarray, step: float) -> np.ndarray:
     """Points on a line through points, at most `step` meters apart; shape (n, 2)."""
     points = [np.asarray(line[:1])]
     for begin, end in itertools.pairwise(line):
@@ -138,7 +140,7 @@ def _filled(line: Sequence[Point], step: float) -> np.ndarray:
 
 
 def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the segments a-b and c-d cross."""
+    """Return whether the segments a-b and c-d cross."""
 
     def side(p: Point, q: Point, r: Point) -> float:
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])

@@ -53,7 +53,7 @@ def logs(
 def _nearest(
     recording: Recording, pattern: str, example: str, texts: list[LogMatch], found: list[LogMatch], level: str
 ) -> tuple[str, str]:
-    """What was seen instead, and a hint."""
+    """Return what was seen instead, and a hint."""
     if found:
         return f"{len(found)}; the last at {found[-1].stamp:.3g} s", ""
     if texts:
@@ -125,6 +125,8 @@ def _pace(stamps: list[Seconds], gaps: list[Seconds]) -> str:
         return f"one line, at {stamps[0]:.3g} s"
     if max(gaps) < 1e-6:
         return f"{len(stamps)} lines at once, at {stamps[0]:.3g} s"
+    if min(gaps) < 1e-6:
+        return f"lines that come at the same moment, then a pause of {max(gaps):.3g} s"
     if max(gaps) - min(gaps) > 1e-6:
         return f"pauses between {min(gaps):.3g} s and {max(gaps):.3g} s"
     return f"a line every {gaps[0]:.3g} s, from {stamps[0]:.3g} s to {stamps[-1]:.3g} s"

@@ -135,7 +135,8 @@ def distances_to_line(points: np.ndarray, line: Sequence[Point]) -> np.ndarray:
     lengths = np.maximum((spans**2).sum(axis=1), 1e-12)
     offsets = points[:, None, :] - starts[None]
     along = np.clip((offsets * spans).sum(axis=2) / lengths, 0.0, 1.0)
-    return np.linalg.norm(offsets - along[..., None] * spans, axis=2).min(axis=1)
+    nearest: np.ndarray = np.linalg.norm(offsets - along[..., None] * spans, axis=2).min(axis=1)
+    return nearest
 
 
 def until_a_touch(recording: Recording) -> Recording:
@@ -189,7 +190,7 @@ def yaw_at(recording: Recording, stamp: Seconds) -> float:
 
 
 def last_pose(recording: Recording) -> Pose:
-    """Where the robot is at the end. Raises ValueError for a run without a robot."""
+    """Return where the robot is at the end. Raises ValueError for a run without a robot."""
     if not recording.path:
         raise ValueError("this run has no robot: give the exercise a world")
     return recording.path[-1]

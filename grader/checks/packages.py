@@ -25,9 +25,10 @@ MODULES = re.compile(r"lib/python[^/]+/site-packages/(.+)")
 
 def package_of(run: PackageRun) -> Package:
     """Return the package of a run. Raises ValueError without one, which is the course's mistake."""
-    if getattr(run, "package", None) is None:
+    package: Package | None = getattr(run, "package", None)
+    if package is None:
         raise ValueError("this exercise has no package: give it one")
-    return run.package
+    return package
 
 
 def starts_a_node(run: PackageRun) -> None:
@@ -136,7 +137,7 @@ def installs_only_its_name(run: PackageRun) -> None:
 
 
 def imports_by_its_name(run: PackageRun) -> None:
-    """What is installed imports its own modules by the package's name, and changes no path. Raises Missed."""
+    """Require that installed modules import each other by the package's name, and change no path."""
     package = package_of(run)
     built, name = package.built, package.package_xml.name
     modules = [path for path in built.files if MODULES.fullmatch(path) and path.endswith(".py")]

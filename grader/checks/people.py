@@ -26,7 +26,7 @@ class Encounter(NamedTuple):
 
 
 def nearest_person(recording: Recording, faster: float) -> Encounter | None:
-    """Where the robot was nearest to a person among the moments at which it drove faster than that (m/s).
+    """Return where the robot was nearest to a person while it drove faster than that (m/s).
 
     None for a robot that never was so fast, or that was alone.
     """

@@ -74,7 +74,7 @@ def responds(
 
 
 def _due(recording: Recording, call: Call, within: Seconds) -> bool:
-    """Whether the answer should have come before the end of the run."""
+    """Return whether the answer should have come before the end of the run."""
     return call.answered is not None or _began(call) + within <= recording.ended.stamp
 
 
@@ -83,7 +83,7 @@ def _began(call: Call) -> Seconds:
 
 
 def _miss(call: Call, right: Callable[[Any], Mapping[str, Any]], within: Seconds) -> tuple[str, str] | None:
-    """What was expected of an answer and what was seen, for one that isn't as it should be."""
+    """Return what was expected of an answer and what was seen, for one that isn't as it should be."""
     if call.answered is None or call.answered - _began(call) > within:
         return f"an answer to {call_text(call)} within {within:g} s", _no_answer(call)
     values = right(call.request)
@@ -138,13 +138,13 @@ def response_fields(call: Call) -> dict[str, Any]:
 
 
 def is_success(call: Call) -> bool:
-    """Whether the response says success."""
+    """Return whether the response says success."""
     fields = response_fields(call)
     return bool(fields.get("success", fields.get("successful")))
 
 
 def is_refusal(call: Call) -> bool:
-    """Whether the response says that it refuses. Without a response it is neither."""
+    """Return whether the response says that it refuses. Without a response it is neither."""
     return call.response is not None and not is_success(call)
 
 

@@ -33,7 +33,7 @@ class Job(NamedTuple):
 
 
 class ShiftProgram(NamedTuple):
-    """What one of the student's nodes did: messages sent by topic, subscriptions, and errors."""
+    """Actions of one of the student's nodes: messages sent by topic, subscriptions, and errors."""
 
     sent: dict[str, int]
     subscribes: tuple[str, ...]
@@ -68,7 +68,7 @@ class Shift(NamedTuple):
 
 
 def shift(recording: Recording) -> Shift:
-    """What happened in a warehouse; of orders and batteries only what the world's own programs said counts.
+    """Return what happened in a warehouse; for orders and batteries, only the world's own messages count.
 
     Raises ValueError for a run without a warehouse.
     """
@@ -102,8 +102,8 @@ def _jobs(recording: Recording) -> tuple[Job, ...]:
             left += (order.deadline.nanosec - order.header.stamp.nanosec) / 1e9
             jobs[order.id] = Job(order.id, stamp, round(stamp + left, 9), None, None, status)
             continue
-        taken = {"picked_up": stamp} if status == "picked up" else {"over": stamp}
-        jobs[order.id] = jobs[order.id]._replace(status=status, robot=order.robot, **taken)
+        job = jobs[order.id]._replace(status=status, robot=order.robot)
+        jobs[order.id] = job._replace(picked_up=stamp) if status == "picked up" else job._replace(over=stamp)
     return tuple(jobs.values())
 
 
@@ -114,7 +114,7 @@ def _statuses(order: Any) -> dict[int, str]:
 
 
 def _touched(world: World, contact: Contact) -> str:
-    """What was touched: boxes that stand still are shelves."""
+    """Return what was touched: boxes that stand still are shelves."""
     if contact.what != "box":
         return contact.what
     shelves = dataclasses.replace(world, walls=(), circles=())

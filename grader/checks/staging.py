@@ -10,9 +10,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from grader.diagnosis.owners import KINDS, owned
-from sim.evidence import Call, Goal, Recording
+from sim.evidence import Call, Goal, LogLine, Recording
 
 LONGEST_LINE = 400  # characters
+TOO_LONG = "(a line too long to be an answer)"
 
 
 def evidence_of(recording: Recording) -> Recording:
@@ -30,11 +31,19 @@ def evidence_of(recording: Recording) -> Recording:
         ],
         calls=[call for call in recording.calls if not _among_themselves(call)],
         goals=[goal for goal in recording.goals if not _among_themselves(goal)],
-        logs=[line for line in recording.logs if line.from_course or len(line.text) <= LONGEST_LINE],
+        logs=_without_long_lines(recording.logs),
         graph=replace(recording.graph, endpoints=ends),
     )
 
 
+def _without_long_lines(lines: list[LogLine]) -> list[LogLine]:
+    """Leave the long ones out; but a node that wrote nothing else must not read that it wrote nothing."""
+    short = [line for line in lines if line.from_course or len(line.text) <= LONGEST_LINE]
+    if any(not line.from_course for line in short):
+        return short
+    return [line if line in short else line._replace(text=TOO_LONG) for line in lines]
+
+
 def _among_themselves(exchange: Call | Goal) -> bool:
-    """Whether a student's node asked, and a student's node took it."""
+    """Return whether a student's node asked, and a student's node took it."""
     return bool(exchange.server) and not (exchange.requested_by_course or exchange.served_by_course)

@@ -16,6 +16,8 @@ HINTS = {
     "has to be closed": "End a value in quotes with the same quote that it begins with.",
     "command not found": "Check the first word of that line, letter by letter.",
     "it is not built|colcon build makes it": "Type colcon build in ws first, and then source what it built.",
+    "it was built later": "Source install/setup.bash once more: a terminal knows what was built before.",
+    "directory already exists": "It is created once; leave the second line out.",
     "not typed in this terminal": "Each terminal is set up by itself: source install/setup.bash there, too.",
     "ROS domain": "`python -m sim` puts the robot in domain 42, or in that of its option --domain, whatever "
     "ROS_DOMAIN_ID is: export its number in each terminal that uses ros2.",
@@ -24,7 +26,7 @@ HINTS = {
     "needs quotes": "A value with spaces is one word only in quotes.",
     "error: ": "`ros2 --help`, and `ros2 topic --help`, show the commands and their arguments.",
     "No such file": "The file is ws/install/setup.bash. Where is this terminal? `cd` changes the folder.",
-    "running in terminal": "Use another terminal, or Ctrl-C first. Does it wait for a name that isn't there?",
+    "running in terminal": "Use another terminal, or press Ctrl-C first. Is it waiting for a wrong name?",
     "No executable found|Package .* not found": "`ros2 pkg executables` lists packages with programs.",
     "Node not found|Unable to find node": "`ros2 node list` shows which nodes are running, and their names.",
     "arameter type": "The type is that of its first value: write 1.0, not 1, for a decimal number.",

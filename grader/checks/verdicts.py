@@ -29,7 +29,7 @@ SPOOFED_TOPICS = "keeps_apart"  # the name of the line about a topic or service 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of one check.
+    """The outcome of one check.
 
     passed: all is well. failed: the student's node missed it. skipped: something above already explains it.
     broken: our own code raised, and `alarm` holds the traceback: an instructor decides about its points, for
@@ -152,9 +152,9 @@ class _Judging:
         return [self.measured[before.name] for before in item.after] if item.takes_measured else []
 
     def _missed(self, item: Check, missed: Missed) -> Verdict:
-        for cause in missed.because:
-            if cause.name in self.verdicts and self.verdicts[cause.name].status == "failed":
-                return skipped(item, FIX_FIRST.format(cause.sentence))
+        for other in missed.because:
+            if other.name in self.verdicts and self.verdicts[other.name].status == "failed":
+                return skipped(item, FIX_FIRST.format(other.sentence))
         cause = "" if missed.hint else explain(self.recording)
         if missed.credit == 0.0 and self.fault and not missed.unsafe:
             return replace(skipped(item, EXPLAINED_BY_FAULT), typo=missed.typo)

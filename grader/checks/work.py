@@ -20,7 +20,7 @@ class WorkTime(NamedTuple):
 
 
 def worked_until(recording: Recording) -> Seconds:
-    """When the last of the student's programs had ended or was stuck; else when the run ended."""
+    """Return when the last of the student's programs had ended or was stuck; else when the run ended."""
     ended = recording.ended
     waits = _WAITS.search(ended.detail) if ended.reason == "blocked" else None
     moments = [ended.stamp, recording.all_exited_at, float(waits[1]) if waits else None]
@@ -28,7 +28,7 @@ def worked_until(recording: Recording) -> Seconds:
 
 
 def work_of(recording: Recording, *, may_end: bool = False) -> WorkTime:
-    """How much of its time a run has for the checks. may_end: a program that has ended may be done."""
+    """Return how much of its time a run has for the checks. may_end: a program that has ended may be done."""
     until, ended = worked_until(recording), recording.ended
     whole = ended.stamp if ended.reason in ("goal", "interrupted") else recording.seconds
     if until >= whole - 1e-6:

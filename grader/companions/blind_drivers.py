@@ -62,13 +62,13 @@ class Dizzy(BlindDriver):
 
 
 class Circling(Dizzy):
-    """As Dizzy, and drives at the same time."""
+    """Like Dizzy, but drives at the same time."""
 
     speed = 0.2
 
 
 class LateStarter(Dizzy):
-    """As Dizzy, but it lets the robot stand for the first 3 s, and from 19 s on."""
+    """Like Dizzy, but lets the robot stand for the first 3 s, and from 19 s on."""
 
     rest, away = 3.0, 16.0
 

@@ -11,7 +11,7 @@ from grader.companions.test_runner import CANDIDATES, VERDICTS
 
 
 def in_order(name: str, seed: int, right: Iterable[str], wrong: Iterable[str]) -> list[tuple[bool, str]]:
-    """Whether it is right, and the text of each candidate, in the order of a seed of an exercise."""
+    """Return whether it is right, and the text of each candidate, in the order of a seed of an exercise."""
     found = [*((True, text) for text in right), *((False, text) for text in wrong)]
     random.Random(f"{name} {seed}").shuffle(found)
     return found

@@ -8,6 +8,48 @@ Folder = str | os.PathLike[str]
 Fix = Callable[[str, str, str], None]
 Move = Callable[[str, str], None]
 
+XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name>
+  <version>0.0.0</version>
+  <description>{description}</description>
+  <maintainer email="you@example.org">you</maintainer>
+  <license>Apache-2.0</license>
+
+{depends}
+  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+MAIN = """\
+def main():
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = {node}()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.commands.publish(Twist())  # zeros: stand still
+        time.sleep(0.2)  # so that they get there
+        node.destroy_node()
+        rclpy.try_shutdown()
+"""
+
+
+def package_xml(name: str, description: str, *depends: str) -> str:
+    """Return the package.xml of a package in Python."""
+    lines = "".join(f"  <depend>{other}</depend>\n" for other in depends)
+    return XML.format(name=name, description=description, depends=lines)
+
+
+def stopping_main(node: str) -> str:
+    """Return a main() that stops the robot on Ctrl-C and SIGTERM, for a node that publishes by `commands`."""
+    return MAIN.format(node=node)
+
 
 def write_package(workspace: Folder, files: Mapping[str, str]) -> None:
     """Write the files of a package into a workspace. Existing files are overwritten.

@@ -10,7 +10,7 @@ from nav_msgs.msg import Path
 from rclpy.action import ActionClient
 from rclpy.node import Node
 
-from grader.companions.map_messages import stamped
+from grader.companions.map_messages import pose_stamped
 from grader.geometry import Point
 from grader.geometry.ground import drivable
 from sim.world import World
@@ -30,7 +30,7 @@ class GoalSender(Node):
     def send(self) -> None:
         """Send the next one."""
         if self.left:
-            self.publisher.publish(stamped(Time(), *self.left.pop(0)))
+            self.publisher.publish(pose_stamped(Time(), *self.left.pop(0)))
 
 
 class Planner(Node):
@@ -41,7 +41,7 @@ class Planner(Node):
     def __init__(self) -> None:
         super().__init__("planner_server")
         self.publisher = self.create_publisher(Path, "/plan", 10)
-        self.path = Path(poses=[stamped(Time(), x, y) for x, y in drivable(self.world)])
+        self.path = Path(poses=[pose_stamped(Time(), x, y) for x, y in drivable(self.world)])
         self.path.header.frame_id = "map"
         self.create_timer(1.0, lambda: self.publisher.publish(self.path))
 
@@ -67,7 +67,7 @@ class GoalClient(Node):
         if not self.client.server_is_ready():
             return
         self.timer.cancel()
-        goal = NavigateToPose.Goal(pose=stamped(self.get_clock().now().to_msg(), *self.goal))
+        goal = NavigateToPose.Goal(pose=pose_stamped(self.get_clock().now().to_msg(), *self.goal))
         future = self.client.send_goal_async(goal, feedback_callback=self.on_feedback)
         future.add_done_callback(self.on_response)
 

@@ -12,7 +12,7 @@ OBSERVER = "observer"
 
 
 class Trace(NamedTuple):
-    """What a main() left behind."""
+    """Traces that a main() left behind."""
 
     raised: str  # the name of the exception that came out of it, "" if none did
     still_up: bool  # rclpy.ok() is still True

@@ -7,7 +7,7 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 """The last messages are stored for subscriptions that come later."""
 
 
@@ -16,7 +16,7 @@ def seconds(stamp: Time) -> float:
     return stamp.sec + stamp.nanosec / 1e9
 
 
-def flat(pose: Pose) -> tuple[float, float, float]:
+def pose_2d(pose: Pose) -> tuple[float, float, float]:
     """Return a Pose as x (m), y (m) and yaw (rad)."""
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
@@ -29,14 +29,14 @@ def posed(x: float, y: float, yaw: float = 0.0) -> Pose:
     return pose
 
 
-def stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
+def pose_stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
     """Return a PoseStamped in map."""
     message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
 
-def listed(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
+def pose_array(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
     """Return a PoseArray in map from points (x, y)."""
     message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"

@@ -58,12 +58,12 @@ class Radio(Node):
             self.publisher.publish(self.waiting.pop(0))
 
     def delay(self, now: float) -> float:
-        """How many seconds the link takes at the moment."""
+        """Return how many seconds the link takes at the moment."""
         return 0.0
 
 
 class BadRadio(Radio):
-    """As Radio; but after some 11 s it is silent for 3 s, and after 17 s its scans come 1 s late for 3 s."""
+    """Like Radio, but silent for 3 s after some 11 s; from 17 s on, its scans are 1 s late for 3 s."""
 
     def __init__(self) -> None:
         super().__init__()

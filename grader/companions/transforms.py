@@ -55,7 +55,7 @@ class StaticLocalization(Node):
 
 
 class LosesTheLeader(StaticLocalization):
-    """As StaticLocalization; but the leader's transform is sent ten times a second, for some 8 s."""
+    """Like StaticLocalization; but the leader's transform is sent ten times a second, for some 8 s."""
 
     def __init__(self, world: World) -> None:
         super().__init__(world)

@@ -101,7 +101,7 @@ def explain(recording: Recording) -> str:
 
 
 def find_flaw(recording: Recording) -> str:
-    """What is certainly wrong in a run without an error, the most important first; "" when nothing is."""
+    """Return what is certainly wrong in a run without an error, the worst first; "" when nothing is."""
     certain = [STRICTER.get(diagnose, diagnose) for diagnose in DIAGNOSES if diagnose not in GUESSES]
     unused = certain.index(activity.unused_publisher)  # what is likelier comes before
     ordered = (*certain[:unused], *FIRST_ATTEMPTS, *certain[unused:], *FLAWS)

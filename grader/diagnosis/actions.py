@@ -89,7 +89,7 @@ def cancel_refused(recording: Recording) -> str:
 
 
 def _went_on(goal: Goal, agreed: float, recording: Recording) -> bool:
-    """Whether a server had time to see that its goal is to be canceled: it looks once in each step."""
+    """Return whether a server had time to see that its goal is to be canceled: it looks once in each step."""
     steps = [after.stamp - before.stamp for before, after in itertools.pairwise(goal.feedback)]
     ended = goal.at(goal.status) if goal.over else recording.ended.stamp
     return ended - agreed > max([_ONE_STEP, *steps]) + 1e-6

@@ -51,7 +51,7 @@ def certainly_slow_callback(recording: Recording) -> str:
 
 
 def _was_canceled(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
-    """Whether a timer fired for the last time although its node was free for longer than its period.
+    """Return whether a timer fired for the last time although its node was free for longer than its period.
 
     end: until when the recording has all that its node did.
     """
@@ -62,7 +62,7 @@ def _was_canceled(fires: list[CallbackRun], of_node: list[CallbackRun], period: 
 
 
 def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:
-    """Whether a callback keeps the others of its node waiting; one that awaits or has a thread does not."""
+    """Return whether a callback blocks the others of its node; one that awaits or has a thread does not."""
     end = slowest.stamp + slowest.duration
     return slowest.duration > period and not any(slowest.stamp < run.stamp < end - 1e-6 for run in of_node)
 

@@ -98,7 +98,7 @@ def _only(part: ast.AST) -> ast.AST:
 
 
 def _reaches(method: ast.AST, test: ast.If | ast.While, wait: ast.AST, use: _Place) -> bool:
-    """Whether execution can go from the test over the `await` to this use."""
+    """Return whether execution can go from the test over the `await` to this use."""
     in_test = _contains(test, _place(wait))
     if in_test and not _contains(test, use):
         return False  # the branch waits until the condition is different

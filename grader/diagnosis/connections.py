@@ -29,7 +29,7 @@ def incompatible_qos(recording: Recording) -> str:
 
 
 def _fix(publisher: Endpoint, subscription: Endpoint, found: tuple[str, str, str]) -> str:
-    """What the student can change, at one end or at either, so that the two fit."""
+    """Return what the student can change, at one end or at either, so that the two fit."""
     policy, offered, wanted = found
     is_time = wanted.endswith(" s")
     better = f"offer {f'{policy} {wanted} or less' if is_time else wanted}"
@@ -62,7 +62,7 @@ def published_too_early(recording: Recording) -> str:
 
 
 def only_message_too_early(recording: Recording) -> str:
-    """As `published_too_early`, unless the message is the first of a stream."""
+    """Work like `published_too_early`, unless the message is the first of a stream."""
     rows = [row for row in recording.undelivered if _is_loss(recording, row)]
     return _too_early([row for row in rows if len(recording.messages(row.topic, row.node)) <= STREAM])
 
@@ -80,7 +80,7 @@ def _too_early(lost: list[UndeliveredMessage]) -> str:
 
 
 def _is_loss(recording: Recording, row: UndeliveredMessage) -> bool:
-    """Whether a student's node never repeats what reached no node: a loop sends it twenty times a second."""
+    """Return whether a student's node never repeats what reached no node, not even 20 times a second."""
     if row.node in recording.course_nodes:
         return False
     said = [received for received in recording.messages(row.topic, row.node) if received.stamp >= row.stamp]

@@ -41,7 +41,7 @@ class VelocityCommand(NamedTuple):
 
     @property
     def moves(self) -> bool:
-        """Whether it is anything but a stop."""
+        """Return whether it is anything but a stop."""
         return bool(self.v or self.w)
 
 
@@ -81,7 +81,7 @@ def drives_against_it(recording: Recording) -> str:
 
 
 def _way(recording: Recording, begin: Seconds, end: Seconds) -> float:
-    """How far the robot got between two moments, m."""
+    """Return how far the robot got between two moments, m."""
     one, other = recording.pose_at(begin), recording.pose_at(end)
     return math.hypot(other.x - one.x, other.y - one.y)
 
@@ -140,12 +140,12 @@ def left_driving(recording: Recording) -> str:
 
 
 def how_to_stop(recording: Recording) -> str:
-    """What to do about a last command that is no stop."""
+    """Return what to do about a last command that is no stop."""
     return _STOP_TRUSTING if _timeout(recording) > _SILENT else _STOP
 
 
 def last_command_that_moves(recording: Recording) -> str:
-    """What is said of a last command that is no stop, after which the program is silent; or ""."""
+    """Return what is said of a last command that is no stop, after which the program is silent; or ""."""
     return next((f"the {_command_text(*left)}" for left in _left(recording)), "")
 
 

@@ -59,7 +59,7 @@ _ALL_RULES = (
 
 
 def advice(error: CallbackError) -> str:
-    """What to do about an error, if it's one of the usual ones; else ""."""
+    """Return what to do about an error, if it's one of the usual ones; else ""."""
     if error.type == "NameError":
         return _unknown_name(error)
     absent = explain_absent_name(error.type, error.text) or launch_file_advice(error)

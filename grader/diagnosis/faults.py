@@ -97,7 +97,7 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
 
 
 def _is_left_over(error: CallbackError) -> bool:
-    """Whether there is code above the line that raised, and not the comment of an exercise not started."""
+    """Return whether there is code above the line that raised, not the comment of an unstarted exercise."""
     places = re.findall(r'File "([^"]+)", line (\d+), in ', error.traceback)
     if not places:
         return False

@@ -52,7 +52,7 @@ def publish_not_reached(recording: Recording) -> str:
 
 
 def _may_wait(recording: Recording, end: Endpoint, ran: CallbackRun) -> bool:
-    """Whether the code publishes only for subscribers, and there are none; or only after certain input."""
+    """Return whether the code publishes only for subscribers, but there are none, or after some input."""
     node = next((node for node in student_nodes(recording) if node.name == end.node), None)
     if node is None or ran.callback not in node.uses:
         return True
@@ -94,7 +94,7 @@ def _decisive(part: ast.AST) -> list[ast.expr]:
 
 
 def _is_input(node: StudentNode, ran: CallbackRun, part: ast.AST) -> bool:
-    """Whether it is an attribute that another callback writes for its input, or a limit of a message."""
+    """Return whether it is an attribute that another callback writes for its input, or a message's limit."""
     name = own_attribute(part)
     if name:
         writers = [

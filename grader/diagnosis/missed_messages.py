@@ -41,7 +41,7 @@ def _sentence(recording: Recording, end: Endpoint, messages: list[Message]) -> s
 
 
 def _lifespan(recording: Recording, end: Endpoint) -> float:
-    """What a message was too old for, s: this subscription, or its latching publisher; 0 for neither."""
+    """Return what a message was too old for, s: the subscription, or its latching publisher; else 0."""
     ends = [end]
     if end.qos.get("durability") == _LATCHED:
         ends += [each for each in recording.graph.publishers(end.name) if each.qos["durability"] == _LATCHED]

@@ -100,7 +100,7 @@ def service_name_typo(recording: Recording) -> str:
 
 
 def _may_be_typo(given: Endpoint, wanted: Endpoint) -> bool:
-    """Whether two ends of nearly the same name were meant to meet.
+    """Return whether two ends of nearly the same name were meant to meet.
 
     Not two of the course's, nor two of one node, which passes something on, nor two that differ in type,
     or only in numbers or in words such as left and right, as those of two robots do.
@@ -114,7 +114,7 @@ def _may_be_typo(given: Endpoint, wanted: Endpoint) -> bool:
 
 
 def _are_other_words(one: str, other: str) -> bool:
-    """Whether two names differ only in whole words, none of which is a typo of its counterpart."""
+    """Return whether two names differ only in whole words, none of which is a typo of its counterpart."""
     pairs = [re.split("[/_]", name) for name in (one, other)]
     if len(pairs[0]) != len(pairs[1]):
         return False

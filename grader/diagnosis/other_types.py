@@ -33,7 +33,7 @@ def conflict(error: CallbackError, recording: Recording) -> Conflict | None:
 
 
 def other_type(error: CallbackError, recording: Recording) -> str:
-    """What to do about an end of a topic that carries another type already; "" for any other error."""
+    """Return what to do about an end of a topic that carries another type already; "" for any other error."""
     found = conflict(error, recording)
     if found is None:
         return ""
@@ -45,6 +45,6 @@ def other_type(error: CallbackError, recording: Recording) -> str:
 
 
 def words_of(error: CallbackError, recording: Recording) -> str:
-    """What an error says. Where rcl lost the reason and says "invalid allocator", it is still on stderr."""
+    """Return what an error says. If rcl lost the reason, "invalid allocator", it is still on stderr."""
     lost = list(_CLASH.finditer(recording.stderr)) if _WITHOUT_WORDS in error.text else []
     return lost[-1][0] if lost else error.text

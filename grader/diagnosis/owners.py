@@ -34,7 +34,7 @@ def owned(recording: Recording, kind: str) -> dict[str, str]:
 
 
 def intrusions(recording: Recording) -> list[Intrusion]:
-    """Where a student's program publishes or serves what another program does, one for each name."""
+    """Return where a student's program publishes or serves what another program does, one for each name."""
     found: dict[str, Intrusion] = {}
     sent = {received.topic for received in recording.published if not received.from_course}
     for kind, what in KINDS.items():

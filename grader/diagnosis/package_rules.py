@@ -47,7 +47,7 @@ PACKAGE_RULES = (
 
 
 def launch_file_advice(error: CallbackError) -> str:
-    """What to do about a name in a launch file that names no program of the student's; else ""."""
+    """Return what to do about a name in a launch file that names no program of the student's; else ""."""
     lost = re.match(r"Can not find attribute '(\w+)' in Entity '(\w+)'", error.text)
     if error.type == "AttributeError" and lost:
         return f"`{lost[2]}` needs `{lost[1]}`, on the line of the launch file that the error names."
@@ -65,7 +65,7 @@ def launch_file_advice(error: CallbackError) -> str:
 
 
 def own_module(error: CallbackError, recording: Recording) -> str:
-    """What to do where a package's program finds no module or function, and the package has one; else ""."""
+    """Return what to do if a package's program lacks a module or function that the package has; else ""."""
     sources = getattr(getattr(recording, "package", None), "sources", {})
     lost = re.match(r"module '(\w+)\.([\w.]+)' has no attribute '(\w+)'", error.text)
     if error.type == "AttributeError" and lost and f"{lost[1]}/{lost[1]}/__init__.py" in sources:
@@ -88,7 +88,7 @@ def own_module(error: CallbackError, recording: Recording) -> str:
 
 
 def _unfound_module(name: str, sources: Mapping[str, bytes], if_new: str = "") -> str:
-    """What to do where no module has this name, and a file of the package could be it; else "".
+    """Return what to do where no module has this name, and a file of the package could be it; else "".
 
     if_new: what to do about a file that may be newer than the last build.
     """
@@ -114,7 +114,7 @@ def _unfound_module(name: str, sources: Mapping[str, bytes], if_new: str = "") -
 
 
 def _not_installed(path: PurePosixPath, sources: Mapping[str, bytes], if_new: str) -> str:
-    """What to do about a module of a package that was left out of its build."""
+    """Return what to do about a module of a package that was left out of its build."""
     top = path.parts[0]
     folders = [folder for folder in path.parents if len(folder.parts) > 1]
     bare = [folder for folder in folders if f"{folder}/__init__.py" not in sources]
@@ -139,7 +139,7 @@ def _not_installed(path: PurePosixPath, sources: Mapping[str, bytes], if_new: st
 
 
 def absent_launch_file(error: CallbackError) -> str:
-    """What to do where a launch file or its package is not found, and the error says why."""
+    """Return what to do where a launch file or its package is not found, and the error says why."""
     if error.type != "NoLaunchFile":
         return ""
     near = re.search(r"[Dd]id you mean '?([\w.]+)'?\?$", error.text)

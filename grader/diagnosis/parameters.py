@@ -43,7 +43,7 @@ def unknown_parameter(recording: Recording) -> str:
 
 
 def _may_be_declared(recording: Recording, node: str, name: str) -> bool:
-    """Whether code that did not run declares the parameter, as a lifecycle node's that was not configured."""
+    """Return whether code that did not run declares it, such as that of a lifecycle node never configured."""
     change = f"{node}/change_state"
     configured = any(call.service == change and call.response is not None for call in recording.calls)
     if not configured and any(end.name == change for end in recording.graph.ends("service")):

@@ -1,4 +1,4 @@
-"""What main() raises after Ctrl-C, when rclpy is already shut down."""
+"""What comes out of main() on Ctrl-C, such as when rclpy is already shut down."""
 
 from sim.evidence import CallbackError, Recording, frames_of
 
@@ -7,11 +7,17 @@ FIRST = "On Ctrl-C, rclpy shuts down first, and then main() gets the KeyboardInt
 
 
 def ends_in_error(recording: Recording) -> str:
-    """A main() that ends in an error after the Ctrl-C at the end of the run."""
+    """A main() that ends in an error after the Ctrl-C at the end of the run, or after its own."""
     return next((_sentence(error) for error in recording.end_errors), "")
 
 
 def _sentence(error: CallbackError) -> str:
+    if error.type == "KeyboardInterrupt":
+        return (
+            f"KeyboardInterrupt came out of {error.callback}(){_place(error)}, which prints a traceback in a "
+            "terminal. Spin in a try block with `except KeyboardInterrupt:` below it; "
+            "a `pass` there is enough."
+        )
     if AGAIN in error.text:
         return (
             f"{FIRST}: there rclpy.shutdown() raises `{AGAIN}`{_place(error)}. "

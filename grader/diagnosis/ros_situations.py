@@ -65,7 +65,7 @@ def empty_list(error: CallbackError) -> str:
 
 
 def empty_list_advice(name: str, given: str) -> str:
-    """What to do about a parameter with the default `[]` that was given a list of another type."""
+    """Return what to do about a parameter with the default `[]` that was given a list of another type."""
     return (
         f"The parameter `{name}` got a list of type {given}, but was declared with an empty list, which "
         "rclpy takes for a BYTE_ARRAY: `[]` doesn't show what is in the list. Declare the type: "

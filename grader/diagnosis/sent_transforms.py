@@ -46,7 +46,7 @@ def two_broadcasters(recording: Recording) -> str:
 
 
 def _overlap(one: list[Seconds], other: list[Seconds]) -> bool:
-    """Whether each of two nodes went on sending after the other had begun."""
+    """Return whether each of two nodes went on sending after the other had begun."""
     return one[-1] > other[0] and other[-1] > one[0]
 
 

@@ -6,9 +6,10 @@ import ast
 
 from grader.diagnosis.bundled import bundled_nodes
 from grader.diagnosis.student_nodes import student_nodes
-from sim.evidence import Recording, is_node_service
+from sim.evidence import CallbackRun, Recording, Seconds, is_node_service
 from sim.notebook.class_source import Function
 
+ROUNDING = 1e-6  # s: moments that are closer are the same
 SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 
 
@@ -84,20 +85,23 @@ def _decided(events: list[tuple[float, str]]) -> float | None:
 
 def response_dropped(recording: Recording) -> str:
     """An answer that came in, but that no done callback takes, and no callback awaited."""
-    took = {run.node for run in recording.callbacks if run.kind == "task" and not _is_rclpys(run.callback)}
+    own = [run for run in recording.callbacks if run.kind != "client" and not _is_rclpys(run.callback)]
+    took = {run.node for run in own if run.kind == "task"}
     for call in recording.calls:
-        if call.received is None or call.requested is None or call.client in took:
+        if call.received is None or call.requested is None or call.requested_by_course or call.client in took:
             continue
-        asking = [
-            run for run in recording.callbacks if run.node == call.client and run.stamp == call.requested
-        ]
-        if asking and call.received > max(run.stamp + run.duration for run in asking):
+        asking = [run for run in own if run.node == call.client and _is_within(call.requested, run)]
+        if asking and call.received > max(run.stamp + run.duration for run in asking) + ROUNDING:
             return (
                 f"{call.client} called {call.service} at {call.requested:.3g} s, and the answer came at "
-                f"{call.received:.3g} s, but nothing took it: "
+                f"{call.received:.3g} s, but no callback received it: "
                 "`call_async(request).add_done_callback(self.on_response)` names the method that receives it."
             )
     return ""
+
+
+def _is_within(stamp: Seconds, run: CallbackRun) -> bool:
+    return run.stamp <= stamp <= run.stamp + run.duration + ROUNDING
 
 
 def _is_rclpys(callback: str) -> bool:
@@ -105,8 +109,9 @@ def _is_rclpys(callback: str) -> bool:
 
 
 def empty_answers(recording: Recording) -> str:
-    """A service all of whose answers are as empty as a new response."""
-    answered = [call for call in recording.calls_of() if call.raw_response is not None]
+    """A service of the student's all of whose answers are as empty as a new response."""
+    calls = [call for call in recording.calls_of() if not call.served_by_course]
+    answered = [call for call in calls if call.raw_response is not None]
     for service in dict.fromkeys(call.service for call in answered):
         responses = [call.response for call in answered if call.service == service]
         fields = list(responses[0].get_fields_and_field_types())
@@ -120,7 +125,7 @@ def empty_answers(recording: Recording) -> str:
 
 
 def _sets_a_field(recording: Recording, service: str) -> bool:
-    """Whether the code of the service's callback, if it is known, sets a field or makes a response."""
+    """Return whether the code of the service's callback, if it is known, sets a field or makes a response."""
     servers = {end.node for end in recording.graph.ends("service") if end.name == service}
     return any(
         _fills(method)
@@ -133,7 +138,7 @@ def _sets_a_field(recording: Recording, service: str) -> bool:
 
 
 def _fills(method: Function) -> bool:
-    """Whether it assigns an attribute of an argument, or passes values to a Response."""
+    """Return whether it assigns an attribute of an argument, or passes values to a Response."""
     arguments = {argument.arg for argument in method.args.args[1:]}
     for part in ast.walk(method):
         if isinstance(part, ast.Call) and part.keywords and getattr(part.func, "attr", "") == "Response":

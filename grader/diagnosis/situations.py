@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from grader.diagnosis.filter_situations import filter_callback, filter_input
+from grader.diagnosis.joint_messages import absent_joint
 from grader.diagnosis.other_types import other_type
 from grader.diagnosis.package_rules import absent_launch_file, own_module
 from grader.diagnosis.parameter_files import mixed_list, yaml_boolean
@@ -37,7 +38,7 @@ _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 
 
 def advice_here(error: CallbackError, recording: Recording) -> str:
-    """What to do about an error in its situation; "" where its words say enough."""
+    """Return what to do about an error in its situation; "" where its words say enough."""
     return (
         own_module(error, recording)
         or error.note
@@ -54,6 +55,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or _not_there(error)
         or _no_distance(error, recording)
         or angles_of_arange(error, recording)
+        or absent_joint(error, recording)
         or filter_callback(error)
         or filter_input(error)
         or invalid_transition(error, recording)

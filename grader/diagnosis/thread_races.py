@@ -116,7 +116,7 @@ def _thread_targets(functions: list[Any], methods: Methods) -> Iterator[str]:
 
 
 def _spins_with_threads(function: ast.AST) -> bool:
-    """Whether a program creates an executor with more than one thread."""
+    """Return whether a program creates an executor with more than one thread."""
     for call in ast.walk(function):
         if isinstance(call, ast.Call) and ast.unparse(call.func).split(".")[-1] == "MultiThreadedExecutor":
             values = (*call.args[:1], *(k.value for k in call.keywords if k.arg == "num_threads"))
@@ -125,7 +125,7 @@ def _spins_with_threads(function: ast.AST) -> bool:
 
 
 def _together(node: StudentNode, one: str, other: str, started: set[str], several: bool) -> str:
-    """Why two methods may run at the same time; "" if they may not."""
+    """Return why two methods may run at the same time; "" if they may not."""
     owner = node.class_.__name__
     callbacks = [name for name in (one, other) if name not in started]
     if any(
@@ -145,7 +145,7 @@ def _together(node: StudentNode, one: str, other: str, started: set[str], severa
 
 
 def _group(node: StudentNode, callback: str) -> str | None:
-    """What identifies a callback's group: how it was made, and its name; None if that is not in the code."""
+    """Return what identifies a callback's group: its call and name; None if that is not in the code."""
     text = node.registered[callback].group
     if not text or text.endswith("()"):
         return f"{text} of {callback}" if text else OWN_GROUP

@@ -43,7 +43,7 @@ def _turns(command: VelocityCommand) -> bool:
 
 
 def _stops_by_heading(node: StudentNode) -> bool:
-    """Whether what it does depends on the heading in odometry, and on nothing else that arrives."""
+    """Return whether what it does depends on the heading in odometry, and on nothing else that arrives."""
     odometry = [callback for callback in node.registered if _kind(node, callback) in _HEADINGS]
     parts = {callback: node.parts(callback) for callback in node.registered}
     of_odometry = [method for callback in odometry for method in parts[callback]]
@@ -80,7 +80,7 @@ def _comparisons(method: ast.AST) -> list[ast.Compare]:
 
 
 def _is_met(part: ast.Compare) -> bool:
-    """Whether it compares a heading with a number, so that a full turn makes it true once and false once."""
+    """Return whether it compares a heading with a number, so that a full turn makes it true only once."""
     sides = [part.left, *part.comparators]
     numbers = [side for side in sides if not isinstance(side, ast.Name) and not own_attribute(side)]
     with contextlib.suppress(ValueError):
@@ -107,7 +107,7 @@ def _read(node: StudentNode, method: ast.AST, part: ast.AST) -> set[str]:
 
 
 def _adds_up(node: StudentNode, name: str) -> bool:
-    """Whether an attribute is a sum, such as the angle turned since the start, over any number of turns."""
+    """Return whether an attribute is a sum, such as the angle since the start, over any number of turns."""
     for method in node.methods.values():
         for part in ast.walk(method):
             if isinstance(part, ast.AugAssign) and ast.unparse(part.target) == f"self.{name}":

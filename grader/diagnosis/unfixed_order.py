@@ -59,7 +59,7 @@ def _only_setter(node: StudentNode, name: str, user: str) -> str:
 
 
 def _initial(node: StudentNode, name: str) -> bool | None:
-    """Whether `__init__` sets an attribute to None; None if it does not set it."""
+    """Return whether `__init__` sets an attribute to None; None if it does not set it."""
     found: bool | None = None
     for part in reached("__init__", node.methods):
         for target, value in assignments(part):
@@ -76,7 +76,7 @@ def _stored(method: Function) -> set[str]:
 
 
 def _needs(node: StudentNode, user: str, name: str) -> bool:
-    """Whether a callback fails if the attribute is None, or is not there."""
+    """Return whether a callback fails if the attribute is None, or is not there."""
     if _initial(node, name) is None:
         return True
     return any(_fails_with_none(part, name) for part in node.parts(user))
@@ -115,7 +115,7 @@ def _operands(node: ast.AST) -> list[ast.AST]:
 
 
 def _was_luck(node: StudentNode, setter: str, user: str) -> bool:
-    """Whether another start of the programs would have exchanged the first executions."""
+    """Return whether another start of the programs would have exchanged the first executions."""
     if setter not in node.runs or user not in node.runs:
         return False
     if node.registered[user].kind != "timer" and _sends(node, setter):

@@ -77,7 +77,7 @@ def _compares_stamps(node: StudentNode, callback: str) -> bool:
 
 
 def _keeps_message(node: StudentNode, setter: str, name: str) -> bool:
-    """Whether a callback stores its message, or something out of it, in the attribute."""
+    """Return whether a callback stores its message, or something out of it, in the attribute."""
     method = node.methods[setter.split(".")[-1]]
     message = _message(method)
     return any(
@@ -93,7 +93,7 @@ def _message(method: ast.FunctionDef | ast.AsyncFunctionDef) -> str:
 
 
 def _combines(method: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> bool:
-    """Whether a calculation or a call has both the attribute and the callback's own message in it."""
+    """Return whether a calculation or a call has both the attribute and the callback's own message in it."""
     message = _message(method)
     for part in ast.walk(method):
         operands = [part.left, part.right] if isinstance(part, ast.BinOp) else []

@@ -26,7 +26,7 @@ def points_of(scan: Any, pose: Sequence[float]) -> np.ndarray:
     return np.column_stack((pose[0] + ranges[rays] * np.cos(angles), pose[1] + ranges[rays] * np.sin(angles)))
 
 
-def far_from(points: Iterable[Sequence[float]], others: Iterable[Sequence[float]],
+def away_from(points: Iterable[Sequence[float]], others: Iterable[Sequence[float]],
              reach: float) -> list[Sequence[float]]:
     """Return the points that are farther than `reach` (m) from all the others."""
     return [point for point in points if all(math.dist(point, other) > reach for other in others)]
@@ -36,7 +36,7 @@ def thinned(points: Iterable[Sequence[float]], gap: float = 0.1) -> list[Sequenc
     """Return some of the points, such that each is near (m) to one of these."""
     kept = []
     for point in points:
-        kept += far_from([point], kept, gap)
+        kept += away_from([point], kept, gap)
     return kept
 
 

@@ -2,6 +2,7 @@
 
 import functools
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,6 +18,7 @@ RESOLUTION = 0.05  # meters; a cell's width
 MARGIN = 0.12
 # Straight and diagonal steps, and those of a chess knight: with them a path is at most 3 % too long.
 _STEPS = [(dx, dy) for dx in range(-2, 3) for dy in range(-2, 3) if (dx or dy) and math.gcd(dx, dy) == 1]
+TO_NEIGHBORS = [(dx, dy) for dx, dy in _STEPS if max(abs(dx), abs(dy)) == 1]
 
 
 class Ground:
@@ -43,7 +45,8 @@ class Ground:
     @property
     def occupied(self) -> np.ndarray:
         """The cells that something solid reaches into."""
-        return self.known & (self.clearance < RESOLUTION * math.sqrt(0.5))
+        occupied: np.ndarray = self.known & (self.clearance < RESOLUTION * math.sqrt(0.5))
+        return occupied
 
     def cell(self, point: Point) -> Cell:
         """Return the cell that holds a point; for a point outside the map, the nearest one."""
@@ -57,15 +60,21 @@ class Ground:
 
     def free(self, radius: float) -> np.ndarray:
         """Return the cells in whose middle a disc of this radius (m) touches nothing."""
-        return self.known & (self.clearance > radius)
+        free: np.ndarray = self.known & (self.clearance > radius)
+        return free
 
     @functools.cache  # noqa: B019  (grounds are few, and stay cached)
     def to_goal(self) -> np.ndarray:
         """Return the robot's distance from each cell to the world's goal (m); inf where there is no path."""
-        return self.lengths(self.free(0.1), self._goal)
+        return self.lengths(self.free(0.1), _existing(self._goal))
 
-    def lengths(self, free: np.ndarray, goal: Point) -> np.ndarray:
-        """Return the distance from each cell to the goal over free cells (m); inf where there is no path."""
+    def lengths(
+        self, free: np.ndarray, goal: Point, allowed: Sequence[tuple[int, int]] = _STEPS
+    ) -> np.ndarray:
+        """Return the distance from each cell to the goal over free cells (m); inf where there is no path.
+
+        allowed: the steps of such a path, in columns and rows.
+        """
         width = self.columns + 4  # with two closed cells around, so that no step leaves the array
         open_ = np.zeros((self.rows + 4, width), bool)
         open_[2:-2, 2:-2] = free
@@ -74,8 +83,8 @@ class Ground:
         flat, flat_open = lengths.ravel(), open_.ravel()
         reached = np.array([(row + 2) * width + column + 2])
         flat[reached] = 0.0
-        steps = np.array([[dy * width + dx] for dx, dy in _STEPS])
-        costs = np.array([[math.hypot(dx, dy) * RESOLUTION] for dx, dy in _STEPS])
+        steps = np.array([[dy * width + dx] for dx, dy in allowed])
+        costs = np.array([[math.hypot(dx, dy) * RESOLUTION] for dx, dy in allowed])
         while reached.size:
             # No step is shorter than a cell: cells this near to the nearest one have no shorter path.
             near = flat[reached] < flat[reached].min() + RESOLUTION
@@ -85,6 +94,12 @@ class Ground:
             np.minimum.at(flat, there, length)
             reached = np.unique(np.concatenate((reached[~near], there)))
         return lengths[2:-2, 2:-2].copy()
+
+
+def _existing(goal: Point | None) -> Point:
+    if goal is None:
+        raise ValueError("this world has no goal")
+    return goal
 
 
 @functools.lru_cache(maxsize=64)
@@ -98,7 +113,7 @@ def shortest(world: World, radius: float = 0.12) -> float:
     """Return the length of the shortest path from start to goal for a disc (m); inf without one."""
     floor = ground(world)
     column, row = floor.cell(world.start[:2])
-    return float(floor.lengths(floor.free(radius), world.goal)[row, column])
+    return float(floor.lengths(floor.free(radius), _existing(world.goal))[row, column])
 
 
 @functools.lru_cache(maxsize=64)
@@ -109,7 +124,7 @@ def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
     """
     floor = ground(world)
     for gap in (radius, 0.2, 0.15, 0.12):
-        lengths = floor.lengths(floor.free(gap), world.goal)
+        lengths = floor.lengths(floor.free(gap), _existing(world.goal))
         here = floor.cell(world.start[:2])
         if np.isfinite(lengths[here[1], here[0]]):
             break
@@ -117,10 +132,11 @@ def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
         raise ValueError(f"world {world.name}: there is no way from start to goal")
     path = [world.start[:2]]
     while lengths[here[1], here[0]] > 0:
-        here = min(
-            ((here[0] + dx, here[1] + dy) for dx, dy in _STEPS),
-            key=lambda cell, at=here: lengths[cell[1], cell[0]] + math.dist(cell, at) * RESOLUTION,
-        )
+
+        def cost(cell: Cell, at: Cell = here) -> float:
+            return float(lengths[cell[1], cell[0]] + math.dist(cell, at) * RESOLUTION)
+
+        here = min(((here[0] + dx, here[1] + dy) for dx, dy in _STEPS), key=cost)
         path.append(floor.middle(here))
     smooth = np.array([*path, world.goal])
     for _ in range(3):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import cast
 
 
 def is_near(value: float | Sequence[float], wanted: float | Sequence[float], tolerance: float) -> bool:
@@ -9,5 +10,6 @@ def is_near(value: float | Sequence[float], wanted: float | Sequence[float], tol
 
     NaN and infinity are near nothing.
     """
-    gap = math.dist(value, wanted) if isinstance(wanted, Sequence) else abs(value - wanted)
-    return bool(gap <= tolerance)
+    if isinstance(wanted, Sequence):
+        return math.dist(cast("Sequence[float]", value), wanted) <= tolerance
+    return bool(abs(cast("float", value) - wanted) <= tolerance)

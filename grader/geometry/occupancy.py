@@ -19,4 +19,5 @@ def distances_to_occupied(cells: np.ndarray) -> np.ndarray:
     nearest = np.full(cells.shape, np.inf)
     for row, squared in zip(rows, in_row, strict=True):
         np.minimum(nearest, squared + ((rows - row) ** 2)[:, None], out=nearest)
-    return np.sqrt(nearest)
+    distances: np.ndarray = np.sqrt(nearest)
+    return distances

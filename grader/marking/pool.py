@@ -69,6 +69,11 @@ class Pool:
             stack.callback(self._stop)
             self._stack = stack.pop_all()
 
+    @property
+    def isolation(self) -> str:
+        """Return how students' code is kept from the judge, as `Sandbox.isolation` does."""
+        return self._students.isolation
+
     def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         """Yield the results, in the order in which they are ready. No submission makes it raise."""
         left = iter(tasks)
@@ -191,7 +196,7 @@ def broken_result(task: MarkingTask, why: str) -> Result:
 
 
 def _ending(process: ConfinedProcess) -> str:
-    """How a process ended that has closed its connection, as a sentence; "" if it hasn't ended."""
+    """Return how a process ended that has closed its connection, as a sentence; "" if it hasn't ended."""
     try:
         return process.wait(END_S).detail
     except TimeoutError:

@@ -69,7 +69,7 @@ class Result:
 
     @property
     def judged(self) -> bool:
-        """Whether at least one test cell was judged."""
+        """Return whether at least one test cell was judged."""
         return any(cell.verdicts for notebook in self.notebooks for cell in notebook.cells)
 
     @property
@@ -81,7 +81,7 @@ class Result:
         return next(filter(None, (self.reason, *self.flags, *errors)), "its test cells ran no nodes")
 
     def to_json(self) -> str:
-        """As text. The same result gives the same text."""
+        """Return it as text. The same result gives the same text."""
         data = asdict(self)
         for cell in (cell for notebook in data["notebooks"] for cell in notebook["cells"]):
             if not cell["games"]:  # only a league has games: without them, digests of results stay the same

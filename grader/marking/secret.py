@@ -23,16 +23,19 @@ WITHOUT_SANDBOX = (
 
 
 def read(folder: Path) -> str:
-    """The secret of the course in `folder`, or "" without the file.
+    """The secret of the course in `folder`, or "" without the file. Raises SystemExit: see `read_file`."""
+    file = folder.absolute() / ".secret"
+    return read_file(file) if file.exists() else ""
+
+
+def read_file(file: Path) -> str:
+    """The secret in a file.
 
     Raises SystemExit when the file is empty, cannot be read or others may read it: otherwise marking would
     continue with the public seeds.
     """
-    file = folder.absolute() / ".secret"
-    if not file.exists():
-        return ""
-    if stat.S_IMODE(file.stat().st_mode) & 0o077:
-        raise SystemExit(f"Others may read {file}: run `chmod 600 .secret`, then mark again.")
+    if file.exists() and stat.S_IMODE(file.stat().st_mode) & 0o077:
+        raise SystemExit(f"Others may read {file}: run `chmod 600 {file.name}`, then mark again.")
     try:
         text = file.read_text().strip()
     except OSError as error:

@@ -32,7 +32,7 @@ class TimeLimits:
 
 
 class Procedure(Protocol):
-    """What a judge does with a submission in place of marking it; it crosses processes with the task."""
+    """A judge's procedure for a submission in place of marking it; it crosses processes with the task."""
 
     def run(self, marking: Any) -> None:
         """Take all steps. marking: the `MarkingState` of the task, which gets the results."""
@@ -43,7 +43,8 @@ class MarkingTask:
     """One submission to mark, with the contents of all its files.
 
     release: the instructor's, without answers. key: hexadecimal digest of everything that is marked; the
-    Result has the same. procedure: None to mark it.
+    Result has the same. procedure: None to mark it. only: the names of the test cells that are judged, if not
+    all of them.
     """
 
     student: str
@@ -51,11 +52,16 @@ class MarkingTask:
     submitted: SubmittedFiles
     key: str
     procedure: Procedure | None = None
+    only: frozenset[str] = frozenset()
 
     @property
     def assignment(self) -> str:
         """Its name."""
         return self.release.assignment
+
+    def judges(self, test_cell: str) -> bool:
+        """Return whether the test cell with this grade_id is judged."""
+        return not self.only or test_cell in self.only
 
 
 class TaskPool(Protocol):

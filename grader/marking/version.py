@@ -11,7 +11,7 @@ from importlib import metadata
 from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
-from sim.course_folders import COURSE, ROS_PACKAGES
+from sim.course_folders import COURSE, FILES, ROS_PACKAGES
 from sim.distro import RCLPY_DISTRIBUTION
 
 CODE = COURSE / "grader", COURSE / "sim", ROS_PACKAGES  # the last has tf2_ros and launch
@@ -20,7 +20,8 @@ BUILT = {"__pycache__", "build", "ros2_course_lidar.egg-info"}
 # Pages, their scripts and manuals change no mark.
 SHOWN_ONLY = {".md", ".html", ".j2", ".css", ".js"}
 # Nor do these: no process that judges or is judged imports them.
-MARKING = ("command", "gradebook", "release", "extras", "journal.py", "mark_evidence.py", "version.py")
+MARKING = ("command", "gradebook", "release", "extras", "journal.py", "lateness.py", "mark_evidence.py")
+MARKING += ("version.py",)
 APART = {*(f"grader/marking/{name}" for name in MARKING), "grader/__main__.py", "grader/work_folder.py"}
 APART |= {"grader/review_questions.py", "sim/__main__.py", "sim/standalone"}
 LOCK = "requirements.lock"  # the file with the version of every library
@@ -61,7 +62,7 @@ def meaning(source: bytes) -> bytes:
 
 def lock_digest() -> str:
     """SHA-256 of the lock file."""
-    return hashlib.sha256((ROS_PACKAGES.parent / LOCK).read_bytes()).hexdigest()
+    return hashlib.sha256((FILES / LOCK).read_bytes()).hexdigest()
 
 
 def course_version() -> str:

@@ -66,7 +66,7 @@ class Stimulus:
 
     @property
     def stamp(self) -> Seconds:
-        """When it was published."""
+        """Return when it was published."""
         return self.message.stamp
 
     @property
@@ -137,7 +137,7 @@ class Stimuli:
         return [self._with_responses(row, answers, ends.get(row.stamp)) for row in chosen]
 
     def _is_near(self, stamp: Seconds, following: Seconds) -> bool:
-        """Whether the next stimulus, in another order, came so early that it cuts this one's window short."""
+        """Return whether the next stimulus, in another order, came early enough to cut this window short."""
         return self.within - 2 * SPREAD < following - stamp <= self.within
 
     def _with_responses(

@@ -18,6 +18,7 @@ from typing import Any
 
 from grader.workspace import interfaces
 from grader.workspace.sources import INSTALLED, InvalidFiles, Sources, read_files, validate_files
+from sim.ros2.absent_colcon import SENTENCE
 
 SECONDS = 300.0  # only against hanging: a busy machine is slow, and the sandbox limits the CPU time
 OUTPUT_BYTES = 50_000  # limit of colcon's output; what is between its begin and its end is left out
@@ -74,7 +75,10 @@ def build_in(folder: Path, sources: Sources) -> Built:
 
 
 def _build_programs(folder: Path) -> Built:
-    command = [sys.executable, str(Path(sys.executable).with_name("colcon")), *COLCON]
+    colcon = Path(sys.executable).with_name("colcon")
+    if not colcon.exists():
+        return Built(problem=SENTENCE)
+    command = [sys.executable, str(colcon), *COLCON]
     status, output = _execute(command, folder, folder)
     if status is None:
         return Built(output=output, problem=TOO_LONG)
@@ -149,13 +153,13 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _begin_and_end(output: Any) -> str:
-    """What a file has, and of a long one the begin and the end."""
+    """Return what a file has, and of a long one the begin and the end."""
     size = output.seek(0, os.SEEK_END)
     output.seek(0)
-    begin = output.read(HALF).decode(errors="replace")
+    begin: str = output.read(HALF).decode(errors="replace")
     output.seek(max(min(HALF, size), size - HALF))
-    end = output.read().decode(errors="replace")
-    return begin + CUT * (size > 2 * HALF) + end
+    end: str = output.read().decode(errors="replace")
+    return f"{begin}{CUT if size > 2 * HALF else ''}{end}"
 
 
 def _shortened(text: str) -> str:

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.workspace.sources import InvalidFiles, Sources
+from sim.course_folders import ROS_PACKAGES
 
-TOOLS = Path(__file__).parents[2] / "ros_packages" / "interfaces"
+TOOLS = ROS_PACKAGES / "interfaces"
 MODULES = f"lib/python{sys.version_info[0]}.{sys.version_info[1]}/site-packages"
 FAILED = "The types could not be built."
 CMAKE_LISTS = "CMakeLists.txt"

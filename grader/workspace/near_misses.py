@@ -68,7 +68,8 @@ def judge_only(name: str) -> Correction:
 
     def correct(sources: Sources) -> Mapping[str, bytes]:
         try:
-            return pkgutil.resolve_name(name)(sources)
+            corrected: Mapping[str, bytes] = pkgutil.resolve_name(name)(sources)
+            return corrected
         except ModuleNotFoundError:
             return {}
 

@@ -73,7 +73,7 @@ def with_interfaces(package: Package, uses: Interfaces, received: Any, build: Bu
     """
     made = make_package(uses.name, received, build, CMAKE)
     saw = made.saw if isinstance(made, Fault) else made.built.problem or uses.difference(made.built.files)
-    if saw:
+    if isinstance(made, Fault) or saw:
         expected = f"{uses.name} with the types that the task describes"
         hint = f"Earn the points for {uses.name} first: the check there shows what is missing."
         return replace(_fault(expected, saw, hint), sentence="The types that your package uses are built.")

@@ -4,6 +4,7 @@ import itertools
 import random
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from sim import World
 from sim.world.machines import CartPoleModel, Push
@@ -39,12 +40,12 @@ def pushed_cart(seed: int) -> World:
     return _cart("pushed_cart", seed, model)
 
 
-def _drawn(seed: int, **figures: float) -> CartPoleModel:
+def _drawn(seed: int, **figures: Any) -> CartPoleModel:
     """A cart that is a little lighter or heavier than the lesson's, with a pole that differs more."""
     draw = random.Random(f"cart {seed}")
     cart, pole, length = draw.uniform(0.45, 0.6), draw.uniform(0.08, 0.13), draw.uniform(0.27, 0.36)
-    drawn = {"cart_mass": cart, "pole_mass": pole, "pole_length": length, "angle_noise": NOISE}
-    return CartPoleModel(**(drawn | figures))
+    model = CartPoleModel(cart_mass=cart, pole_mass=pole, pole_length=length, angle_noise=NOISE)
+    return replace(model, **figures)
 
 
 def _cart(name: str, seed: int, model: CartPoleModel) -> World:

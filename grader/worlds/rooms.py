@@ -1,7 +1,6 @@
 """Rooms, halls and mazes, drawn from a seed; one with a box in the way that is in no map."""
 
 import functools
-import itertools
 import math
 import random
 from dataclasses import replace
@@ -88,12 +87,14 @@ def furnished_room(seed: int) -> World:
 def free_start(seed: int) -> World:
     """Return a furnished room in which 1.5 m ahead of the robot are free, so that a driver can begin."""
     chance = random.Random(f"free_start {seed}")
-    for drawn in itertools.chain([seed], iter(lambda: chance.randrange(2**31), None)):
+    drawn = seed
+    while True:
         world = furnished_room(drawn)
         x, y, yaw = world.start
         for turned in (yaw, *(math.radians(degrees) for degrees in range(-180, 180, 15))):
             if _free_ahead(world, turned) >= FREE_AHEAD:
                 return replace(world, start=(x, y, round(turned, 2)))
+        drawn = chance.randrange(2**31)
 
 
 @functools.lru_cache(maxsize=64)
@@ -135,8 +136,8 @@ def blocked(seed: int) -> tuple[World, World]:
 def yard_from(seed: int) -> World:
     """Return the yard, for a robot that starts where its odometry says. With seed 1, at 0."""
     yard, draw = World.load("yard"), random.Random(f"yard {seed}")
-    drawn = [round(draw.uniform(low, high), 2) for low, high in ((-2.5, 2.0), (-2.5, 2.0), (-3.0, 3.0))]
-    start = (0.0, 0.0, 0.0) if seed == 1 else tuple(drawn)
+    x, y, yaw = (round(draw.uniform(low, high), 2) for low, high in ((-2.5, 2.0), (-2.5, 2.0), (-3.0, 3.0)))
+    start = (0.0, 0.0, 0.0) if seed == 1 else (x, y, yaw)
     return replace(yard, start=start, robot=replace(yard.robot, odometry=start))
 
 

@@ -8,7 +8,8 @@ import random
 
 import numpy as np
 
-from grader.geometry.ground import Point, drivable, shortest
+from grader.geometry.ground import drivable, shortest
+from grader.geometry.pose import Point
 from sim.world import MovableBox, World
 from sim.world.clearance import clearance
 
@@ -78,7 +79,8 @@ def _with(world: World, part: str, **figures: object) -> World:
 def _blocked(world: World, seed: int) -> World:
     """One place where goods are fetched, and a box on the way there, so that another way is left."""
     chance, kept = random.Random(f"box {seed}"), [world.start, *(person.route[0] for person in world.people)]
-    for place in chance.sample(world.warehouse.pickups, len(world.warehouse.pickups)):
+    pickups = world.warehouse.pickups if world.warehouse else ()
+    for place in chance.sample(pickups, len(pickups)):
         known = dataclasses.replace(_with(world, "warehouse", pickups=(place,)), goal=place[:2])
         solid = dataclasses.replace(known, movable=(), boxes=(*world.boxes, *world.movable))
         way = drivable(solid)
@@ -93,7 +95,7 @@ def _blocked(world: World, seed: int) -> World:
 
 
 def _middle(world: World, spot: Point) -> Point:
-    """Where there is most room, in the neighbourhood of a point."""
+    """Return where there is most room, in the neighbourhood of a point."""
     steps = [0.1 * step for step in range(-6, 7)]
     around = np.array([(spot[0] + right, spot[1] + up) for right in steps for up in steps])
     x, y = around[clearance(world, *around.T).argmax()].tolist()
@@ -101,5 +103,5 @@ def _middle(world: World, spot: Point) -> Point:
 
 
 def _room(world: World, x: float, y: float) -> float:
-    """How far it is from a point to what is solid, m."""
+    """Return how far it is from a point to what is solid, m."""
     return float(clearance(world, np.array([x]), np.array([y]))[0])

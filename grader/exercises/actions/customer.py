@@ -74,13 +74,13 @@ def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
 
 
 def _tells(text: str, newest: int, length: int) -> bool:
-    """Whether a text has the newest number, and hardly more than a sequence that is this long."""
+    """Return whether a text has the newest number, and hardly more than a sequence that is this long."""
     numbers = numbers_in(text)
     return newest in numbers and len(numbers) <= length + FURTHER
 
 
 def _holds(text: str, numbers: list[int]) -> bool:
-    """Whether a text has these numbers one after the other, and hardly any others."""
+    """Return whether a text has these numbers one after the other, and hardly any others."""
     found, length = numbers_in(text), len(numbers)
     few = len(found) <= length + FURTHER
     return few and any(found[begin : begin + length] == numbers for begin in range(FURTHER + 1))

@@ -86,7 +86,7 @@ def _hint(run: Recording) -> str:
 
 
 def _no_quarter(run: Recording) -> str:
-    """What to say where a turn is by another angle than a quarter turn; "" where none is."""
+    """Return what to say where a turn is by another angle than a quarter turn; "" where none is."""
     angles = (goal.request.target_yaw for goal in run.goals_of(SPIN))
     other = next((angle for angle in angles if not is_near(angle, math.pi / 2, 0.01)), None)
     return "" if other is None else f"target_yaw was {other:.3g}: a quarter turn is math.pi / 2, 1.5708 rad."

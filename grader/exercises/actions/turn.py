@@ -142,7 +142,7 @@ def _text(goal: Goal) -> str:
 
 
 def _turned(run: Recording, goal: Goal) -> Callable[[Seconds], float]:
-    """How far the robot really turned until a moment, from when the goal was sent; radians, + to the left."""
+    """Return how far the robot really turned from the goal's request to a moment; radians, + to the left."""
     poses = run.during(goal.requested or 0.0).path or run.path[-1:]
     moments, yaws = [pose.stamp for pose in poses], np.unwrap([pose.yaw for pose in poses])
     return lambda until: float(yaws[max(0, bisect.bisect_right(moments, until) - 1)] - yaws[0])

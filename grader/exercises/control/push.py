@@ -1,4 +1,4 @@
-"""Keep a pole up with other masses, another pole, and pushes."""
+"""A design exercise: keep a pole up with other masses, another pole, and pushes."""
 
 from grader.checks import Missed, hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
 from grader.checks.control import EFFORT
@@ -10,7 +10,7 @@ from sim.evidence import Recording
 LIMIT = 10.0  # N
 SOON, NEAR, STEADY = 3.0, 0.05, 0.05  # s, m, rad
 
-push = Exercise("push", "Whatever comes", world=pushed_cart, seconds=19, seeds=(1, 2), waits=False)
+push = Exercise("push", "Whatever comes, your way", world=pushed_cart, seconds=19, seeds=(1, 2), waits=False)
 
 
 @push.check(2)

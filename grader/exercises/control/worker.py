@@ -91,5 +91,5 @@ def _brightest(picture: Stimulus) -> int:
 
 
 def _is_early(picture: Stimulus, answer: Message) -> bool:
-    """Whether an answer comes before the picture can have been looked at."""
+    """Return whether an answer comes before the picture can have been looked at."""
     return answer.stamp < picture.stamp + LOOKS - EDGE

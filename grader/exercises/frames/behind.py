@@ -1,4 +1,4 @@
-"""The project on frames: follow another robot by transforms."""
+"""A design exercise: follow another robot by transforms."""
 
 import math
 import statistics
@@ -39,11 +39,11 @@ WHY_OFF = {
     "It loses the leader. Look up where the point is in base_link, the robot's own frame: odom "
     "and leader/odom are two different frames, and only the tf tree relates them.":
         lambda run, gaps: gaps and statistics.mean(gaps.values()) > 2.0,
-    "Steer by the angle of the point in base_link, atan2(y, x) in rad; drive faster the farther away it is.":
-        otherwise,
+    "Print the point that the robot drives to, in the map. Is it where it should be? If so: does the robot "
+    "turn towards it, and is it fast enough to catch up?": otherwise,
 }
 
-behind = Exercise("behind", "Follow the leader", scenarios=[
+behind = Exercise("behind", "Follow the leader, your way", scenarios=[
     Scenario(convoy, 22, 1, companions=lambda seed: localization(convoy(seed)), name="driving"),
     Scenario(parked, 14, 2, companions=lambda seed: localization(parked(seed), LATE), name="parked"),
     Scenario(trusting(convoy), 15, 3, companions=lambda seed: [partial(LosesTheLeader, convoy(seed))],
@@ -93,12 +93,12 @@ def stops_when_it_knows_nothing_new(run: Recording) -> None:
 @behind.check(4, after=keeps_the_gap)
 def touches_nothing(run: Recording) -> None:
     """The robot touches nothing and no one."""
-    keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
+    keeps_clear(run, "Does it aim at the leader itself? Where should it slow down, and where stop?")
     lasts(run, "/cmd_vel")
 
 
 def _looks_from_the_leader(run: Recording) -> bool:
-    """Whether the robot turns to where the point would be, were the two frames swapped."""
+    """Return whether the robot turns to where the point would be, were the two frames swapped."""
     turns = []
     for row in from_student(run, "/cmd_vel"):
         robot, leader = (last_before(path, row.stamp) for path in (run.path, run.tracks["leader"]))

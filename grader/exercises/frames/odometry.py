@@ -93,7 +93,7 @@ def _odometry(run: Recording) -> list[Message]:
 
 
 def _is_partly_right(sent: Broadcast, poses: list[Pose2D]) -> bool:
-    """Whether a wrong transform is right in one thing. poses: by the odometry so far."""
+    """Return whether a wrong transform is right in one thing. poses: by the odometry so far."""
     turned = abs(math.remainder(sent.pose.yaw - poses[-1].yaw, math.tau)) <= NEAR and sent.is_rotation
     return turned or _is_placed(sent, poses) or _is_late(sent, poses)
 
@@ -103,5 +103,5 @@ def _is_placed(sent: Broadcast, poses: list[Pose2D]) -> bool:
 
 
 def _is_late(sent: Broadcast, poses: list[Pose2D]) -> bool:
-    """Whether the robot was there a moment ago."""
+    """Return whether the robot was there a moment ago."""
     return any(sent.pose.is_near(pose, NEAR, NEAR) for pose in poses[-3:])

@@ -131,7 +131,7 @@ def _speed(run: Recording, stamp: Seconds) -> float:
 
 
 def _arrival(run: Recording, command: Message, end: Seconds) -> Seconds:
-    """When the joint came to stand at a command's position; the end if it did not."""
+    """Return when the joint came to stand at a command's position; the end if it did not."""
     for pose in Window(command.stamp, end).rows(tip_path(run)):
         if abs(pose.yaw - command.message.data) < CLOSE and _speed(run, pose.stamp) < STANDS:
             return pose.stamp

@@ -43,7 +43,7 @@ def subscribes_to_states(run: Recording) -> None:
     "That was its position some time ago. Store each message that comes, and log the newest.":
         lambda run, row: any(_is_near(run, row.name, row.number, sent.stamp)
                              for sent in run.received("/joint_states") if sent.stamp < row.stamp),
-    "Where a joint is comes on /joint_states, in radians, by its name.": otherwise,
+    "Each joint's position is on /joint_states, in radians, by its name.": otherwise,
 }, guess="print() writes for you alone; self.get_logger().info(...) is a log line.")
 def logs_degrees(run: Recording) -> list[Shown]:
     """Log lines such as “elbow_joint: -28.6 degrees” say where both joints of the arm are."""
@@ -93,6 +93,6 @@ def _positions(run: Recording, name: str, stamp: Seconds) -> list[float]:
 
 
 def _is_near(run: Recording, name: str, number: float, stamp: Seconds) -> bool:
-    """Whether a joint was at this number of degrees, or between two of its positions then."""
+    """Return whether a joint was at this number of degrees, or between two of its positions then."""
     found = [math.degrees(position) for position in _positions(run, name, stamp)]
     return bool(found) and min(found) - NEAR <= number <= max(found) + NEAR

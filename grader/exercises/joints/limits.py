@@ -115,7 +115,7 @@ def _another(others: list[Message]) -> Missed:
 
 
 def _visits(run: Recording) -> list[Visit]:
-    """When each joint was near a limit, by the joint states of the course's drivers."""
+    """Return when each joint was near a limit, by the joint states of the course's drivers."""
     known, since, found = described_limits(run), {}, []
     for row in from_course(run, "/joint_states"):
         for name, position in zip(row.message.name, row.message.position, strict=True):
@@ -133,7 +133,7 @@ def _visits(run: Recording) -> list[Visit]:
 
 
 def _states_near(run: Recording, visit: Visit) -> int:
-    """How many joint states of a visit have the joint within the margin."""
+    """Return how many joint states of a visit have the joint within the margin."""
     found = 0
     for row in Window(visit.begin, visit.end).rows(from_course(run, "/joint_states")):
         places = dict(zip(row.message.name, row.message.position, strict=True))
@@ -142,7 +142,7 @@ def _states_near(run: Recording, visit: Visit) -> int:
 
 
 def _another_is_near(run: Recording, wrong: Message) -> bool:
-    """Whether a position that was published last for another name is near this joint's limit."""
+    """Return whether a position that was published last for another name is near this joint's limit."""
     name, states = wrong.message.data, last_before(from_course(run, "/joint_states"), wrong.stamp).message
     others = [place for other, place in zip(states.name, states.position, strict=True) if other != name]
     return any(described_limits(run)[name].margin(place) < NEAR for place in others)

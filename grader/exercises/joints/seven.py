@@ -43,7 +43,7 @@ def sends_all_seven(run: Recording) -> None:
 
 
 def _is_nearly_right(sent: list[float]) -> bool:
-    """Whether one mistake explains what was sent: the order, the unit, one too few, or an end too late."""
+    """Return whether one mistake explains what was sent: the order, unit, one too few, or a late end."""
     in_degrees = [round(math.degrees(value), 6) for value in POSITIONS]
     parts = POSITIONS, POSITIONS[1:], POSITIONS[:-1], in_degrees
     return sent[: len(POSITIONS)] == POSITIONS or sorted(sent) in map(sorted, parts)
@@ -73,7 +73,7 @@ def ends_by_itself(run: Recording) -> None:
         raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")
     if end is None or end > last + PERIOD + 0.1:
         expected = f"the program to end, at most {PERIOD:g} s after the last position (at {last:.3g} s)"
-        saw = f"it still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s"
+        saw = f"the program still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s"
         hint = ("When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
                 "rclpy.spin() returns, and main() ends.")
         raise Missed(expected, saw, hint)

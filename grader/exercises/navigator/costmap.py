@@ -139,7 +139,7 @@ class Inflation(NamedTuple):
 
     @property
     def reaches_too_far(self) -> bool:
-        """Whether nothing is missing, but there is more than should be."""
+        """Return whether nothing is missing, but there is more than should be."""
         return self.extra.any() and not self.missing.any()
 
 

@@ -34,7 +34,7 @@ LATE = 2.0  # s after its start the localization first publishes, in one of the 
 
 
 def _settled(run: Recording) -> bool:
-    """Whether the robot has stood at the goal for 2 s, or will not get there."""
+    """Return whether the robot has stood at the goal for 2 s, or will not get there."""
     at_goal = math.dist(run.world.goal, run.path[-1][1:3]) < NEAR
     return (at_goal and stood_still(run, 2.0)) or is_hopeless(run, patience=10.0)
 
@@ -146,7 +146,7 @@ def _line(run: Recording) -> tuple[Point, ...]:
 
 
 def _covered(run: Recording) -> tuple[float, float]:
-    """How far along the path the robot came, point after point without short cuts; and its length."""
+    """Return how far along the path the robot came, point after point without short cuts; and its length."""
     line, reached = np.array(_line(run)), 0
     along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1)))
     for pose in run.path:
@@ -159,7 +159,7 @@ def _covered(run: Recording) -> tuple[float, float]:
 
 
 def _trusts_odometry_alone(run: Recording) -> bool:
-    """Whether it turns to where the path ahead would be, were the robot where its odometry has it."""
+    """Return whether it turns to where the path ahead would be, were the robot where its odometry has it."""
     fits_map, fits_odometry = [], []
     line, (x0, y0, yaw0) = np.array(_line(run)), run.world.start
     from_start = Pose2D(0.0, 0.0, -yaw0)

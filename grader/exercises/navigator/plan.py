@@ -11,7 +11,7 @@ from grader.companions.goals import GoalSender
 from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Point
-from grader.geometry.ground import ground
+from grader.geometry.ground import TO_NEIGHBORS, ground
 from grader.geometry.near import is_near
 from grader.geometry.occupancy import cells_of
 from grader.responses import Window, from_course
@@ -96,7 +96,7 @@ def is_short(run: Recording, points: list[Point]) -> None:
     """The path is at most 5 % longer than the shortest one."""
     world, floor = run.world, ground(run.world)
     column, row = floor.cell(world.start[:2])
-    shortest = float(floor.lengths(_costmap(run) == 0, world.goal)[row, column])
+    shortest = float(floor.lengths(_costmap(run) == 0, world.goal, TO_NEIGHBORS)[row, column])
     way = math.fsum(gap for gap, _ in _gaps(points))
     if way > RIGHT * shortest:
         hint = ("A cell may be reached again by a shorter path: then store the new cost, and the cell "
@@ -116,7 +116,7 @@ def admits_that_there_is_no_way(run: Recording) -> None:
 
 
 def _answer(run: Recording, number: int) -> tuple[Seconds, Any]:
-    """When a goal was sent, and the last path within its time; None without one."""
+    """Return when a goal was sent, and the last path within its time; None without one."""
     goal = from_course(run, "/goal_pose", at_least=number + 1, what="goals on /goal_pose")[number]
     paths = Window.after(goal.stamp, WITHIN).rows(run.messages("/plan"))
     return goal.stamp, paths[-1].message if paths else None

@@ -11,7 +11,7 @@ from grader.workspace.package import PackageRun
 
 TOPIC = "/greeting"
 
-greeter = Exercise("greeter", "A package from nothing", package="greeter",
+greeter = Exercise("greeter", "A package from scratch", package="greeter",
                    scenarios=[Scenario(seconds=6, prepare=partial(ros2_run, "greeter", "hello"))],
                    near_misses=[commas, partial(entry_points, commands=["hello"])])
 

@@ -30,7 +30,7 @@ latch = Exercise("latch", "An emergency stop that latches", scenarios=[
 
 
 class Times(NamedTuple):
-    """When the operator did what."""
+    """The times of the operator's actions."""
 
     press: Seconds
     release: Seconds
@@ -143,7 +143,7 @@ def _pauses(stamps: list[Seconds]) -> list[tuple[Seconds, Seconds]]:
 
 
 def _is_free(stamp: Seconds, when: Times) -> bool:
-    """Whether nothing stops the robot at that moment, for certain; a press may overtake a command."""
+    """Return whether nothing stops the robot at that moment, for certain; a press may overtake a command."""
     return 0.5 < stamp < when.press - SOON or when.resumed <= stamp < when.cut + 0.3
 
 

@@ -25,7 +25,7 @@ mux = Exercise("mux", "Two drivers, one robot", scenarios=[
 
 
 class MuxSample(NamedTuple):
-    """What each driver wants at a moment, and what the robot is commanded.
+    """The drivers' commands at a moment, and the robot's.
 
     A driver is None where its command is old, or has just changed.
     """
@@ -37,7 +37,7 @@ class MuxSample(NamedTuple):
     sent: Speeds | None
 
     def wanted(self, topic: str) -> Speeds:
-        """What the driver on this topic wants."""
+        """Return what the driver on this topic wants."""
         return (self.joy if topic == JOY else self.nav) or (0.0, 0.0)
 
 
@@ -122,7 +122,7 @@ def _samples(run: Recording) -> list[MuxSample]:
 
 
 def _steady(sent: list[Message], now: Seconds) -> Speeds | None:
-    """What a driver wants for certain: fresh, and the same for a while."""
+    """Return what a driver wants for certain: fresh, and the same for a while."""
     rows = Window(now - STEADY, now).rows(sent)
     wanted = {speeds(row) for row in rows}
     arrived = len(rows) >= 2 and rows[0].stamp <= now - ARRIVED

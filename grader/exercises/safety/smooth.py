@@ -43,7 +43,7 @@ class Response(NamedTuple):
 
     @property
     def right(self) -> float:
-        """What the limits leave of the request, in the end."""
+        """Return what the limits leave of the request, in the end."""
         within = max(-self.axis.most, min(self.axis.most, self.requested))
         return within if math.isfinite(self.requested) else 0.0
 

@@ -30,7 +30,7 @@ SETTLING = 1.0  # seconds to notice that something is old, and to brake
 
 
 class Moment(NamedTuple):
-    """What a guard knew at a moment, and what it published."""
+    """A guard's knowledge at a moment, and what it published."""
 
     stamp: Seconds
     requested: Speeds | None  # by the driver; None if that is old, or about to change
@@ -39,7 +39,7 @@ class Moment(NamedTuple):
 
 
 class Ahead(NamedTuple):
-    """What a scan shows: when it came, how old it was then, and the nearest distance ahead."""
+    """A scan as received: when it came, how old it was then, and the nearest distance ahead."""
 
     stamp: Seconds
     age: Seconds
@@ -156,12 +156,12 @@ def _text(command: Speeds | None) -> str:
 
 
 def _pauses(run: Recording, topic: str) -> list[Window]:
-    """Where nothing of the course came on a topic for more than 1.5 s."""
+    """Return where nothing of the course came on a topic for more than 1.5 s."""
     return _gaps(stamps(from_course(run, topic, at_least=0)))
 
 
 def _delays(run: Recording) -> list[Window]:
-    """Where for more than 1.5 s all scans that came were more than half a second old."""
+    """Return where for more than 1.5 s all scans that came were more than half a second old."""
     in_time = [scan.stamp for scan in _scans(run) if scan.age < 0.5]
     return [gap for gap in _gaps(in_time) if gap not in _pauses(run, LIDAR)]
 
@@ -204,5 +204,5 @@ def _moments(run: Recording) -> Iterator[Moment]:
 
 
 def _agree(scans: list[Ahead]) -> bool:
-    """Whether all are free, or all are blocked."""
+    """Return whether all are free, or all are blocked."""
     return all(scan.distance > FREE for scan in scans) or all(scan.distance < BLOCKED for scan in scans)

@@ -68,7 +68,7 @@ def _at_rest(headings: Headings) -> Headings:
 
 
 def _drift(headings: Headings) -> float:
-    """How fast the heading changes at the end, while the robot stands still (degrees/s)."""
+    """Return how fast the heading changes at the end, while the robot stands still (degrees/s)."""
     (first, before), (last, after) = _at_rest(headings)[0], _at_rest(headings)[-1]
     return (after - before) / (last - first)
 
@@ -81,7 +81,7 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
 
 
 def _misses_steps(run: Recording, headings: Headings) -> Any:
-    """Whether a heading without drift is short by the share of the messages that were lost on the network."""
+    """Return whether a heading without drift is short by the share of messages lost on the network."""
     links = [one for one in run.crossings
              if one.topic == "/imu/data" and one.listener not in run.course_nodes and one.sent]
     lost = max((one.lost / one.sent for one in links), default=0.0)
@@ -132,7 +132,7 @@ def ends_right(run: Recording, headings: Headings) -> Headings:
         expected, saw = f"{turned:.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees"
         scaled = _scaled(run, headings)
         credit = EXPLAINED if scaled else 0.0
-        raise Missed(expected, saw, picture="topics", about=(headings,), credit=credit, measured=scaled)
+        raise Missed(expected, saw, picture=HEADING, about=(headings,), credit=credit, measured=scaled)
     return headings
 
 
@@ -169,7 +169,7 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
                     "stands still")
         saw = f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second"
         hint = "It reaches the right heading too late: publish the sum itself, without smoothing."
-        raise Missed(expected, saw, hint, picture="topics")
+        raise Missed(expected, saw, hint, picture=HEADING)
 
 
 @gyro.check(3, after=ends_right)
@@ -185,5 +185,5 @@ def is_right_all_the_time(run: Recording, headings: Headings) -> None:
 
 
 def _turned(run: Recording, stamp: Seconds) -> float:
-    """How far the robot has turned since the start, degrees to the left, in -180..180."""
+    """Return how far the robot has turned since the start, degrees to the left, in -180..180."""
     return turn_between(yaw_at(run, stamp), math.degrees(run.path[0].yaw))

@@ -1,4 +1,4 @@
-"""Follow the wall round a room."""
+"""A design exercise: follow the wall round a room."""
 
 import itertools
 import math
@@ -14,14 +14,14 @@ NEAR, FAR = 0.3, 0.8  # meters from the wall
 SETTLED = 3.0  # seconds
 SHARE = 0.9  # of the time
 
-wall = Exercise("wall", "Around the room", scenarios=[
+wall = Exercise("wall", "Around the room, your way", scenarios=[
     Scenario(gallery, 90, 1),
     Scenario(gallery_from_the_wall, 90, 2),
 ])
 
 
 def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
-    """How far (m) the nearest of the room's walls is, and in which direction (rad, in the map)."""
+    """Return how far (m) the nearest of the room's walls is, and in which direction (rad, in the map)."""
     left, low, right, top = run.world.bounds
     gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
     return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
@@ -35,7 +35,7 @@ def _goes_the_other_way(run: Recording) -> bool:
 
 
 @wall.check(2, hints={
-    "{command} -inf is a wall too close to be measured: max(0.0, distance) makes a number of it.":
+    "{command} -inf is a wall too close to be measured: max(0.0, distance) turns it into a number.":
         lambda run: (command := refused_command(run)) and {"command": command},
 }, guess="While nothing is ahead, linear.x should be 0.2 or more.")
 def leaves_the_start(run: Recording) -> None:
@@ -49,8 +49,8 @@ def leaves_the_start(run: Recording) -> None:
     "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.":
         lambda run: (command := refused_command(run))
         and (not run.contacts or run.contacts[0].side != "front") and {"command": command},
-    "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is closer than "
-    "0.6 m, stop and turn left until the path is clear again.":
+    "It touched a {what} at {stamp:.3g} s, with its {side} side. Look at the replay just before that: what "
+    "did the lidar see, and which part of your program should have reacted to it?":
         lambda run: run.contacts and run.contacts[0]._asdict(),
     "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.":
         lambda run: (gap := statistics.median(_nearest_wall(run, pose)[0] for pose in run.path))
@@ -59,8 +59,8 @@ def leaves_the_start(run: Recording) -> None:
         _goes_the_other_way,
     "It is too slow, or stops at times: the path is about 13 m long, so drive at 0.2 m/s or more.":
         lambda run: traveled(run) < 10.0,
-    "Use two rules: turn left when the wall ahead is close; otherwise steer so that the wall on the right "
-    "stays 0.5 m away.": lambda run: True,
+    "It doesn't come around. What does it do along a wall, and what in a corner? Which of the two does it do "
+    "at the point where it leaves the wall?": lambda run: True,
 })
 def goes_round(run: Recording) -> None:
     """It goes around the room, with the wall on its right: past all four corners, within 90 s."""
@@ -118,5 +118,5 @@ def keeps_the_distance(run: Recording) -> None:
 @wall.check(4, after=goes_round)
 def touches_nothing(run: Recording) -> None:
     """It touches nothing."""
-    hint = "Before a corner, watch the wall ahead: when it is closer than 0.6 m, stop and turn left."
+    hint = "How far away is a wall ahead when your program reacts to it? Is that enough at your speed?"
     keeps_clear(run, hint)

@@ -37,7 +37,7 @@ def offers_to_arm(run: Recording) -> None:
 
 @arming.check(3, after=offers_to_arm, guess={
     INVERTED: lambda run, call: _is_inverted(run),
-    "success tells the caller whether the call worked, and here it always does. The message has the rest.":
+    "success tells the caller whether the call worked, and here it always does. The state goes in message.":
         lambda run, call: _words(call) == [_word(call)],
     'The message is the state after this call: "armed" if self.armed else "disarmed".': (
         lambda run, call: is_success(call)
@@ -126,7 +126,7 @@ def _words(call: Call) -> list[str]:
 
 
 def _is_inverted(run: Recording) -> bool:
-    """Whether each call did the opposite of its request, by its message."""
+    """Return whether each call did the opposite of its request, by its message."""
     made = course_calls(run, ARM, CALLS)
     return all(len(_words(call)) == 1 and _words(call) != [_word(call)] for call in made)
 

@@ -68,7 +68,10 @@ def calls_until_yes(run: Recording, answered: list[Call]) -> None:
         raise Missed("a pause of about a second before the next call", saw, guess=guess)
     yes = _yes(answered)
     if yes is None:
-        saw = f"{len(answered)} in all, the last at {answered[-1].requested:.3g} s, and that one was refused"
+        saw = "none that it answered"
+        if answered:
+            last = answered[-1].requested
+            saw = f"{len(answered)} in all, the last at {last:.3g} s, and that one was refused"
         guess = "Let a timer call once a second, for as long as the door refuses."
         raise Missed("calls until the door says yes", saw, guess=guess)
     late = [call for call in answered if call.requested > yes.answered]

@@ -7,7 +7,7 @@ from grader.checks import Missed, course_calls, named, publishes, series, wrong_
 from grader.checks.fields import plain
 from grader.checks.services import call_text, is_refusal, is_success, response_fields
 from grader.companions.parameter_start import started_with
-from grader.companions.service_clients import Reader, Tuner
+from grader.companions.service_clients import Tuner
 from grader.exercise import Exercise, Scenario
 from grader.geometry.near import is_near
 from sim.evidence import Call, Recording, Seconds
@@ -39,7 +39,7 @@ def declares_speed(run: Recording) -> float:
 @parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
     """Until it is set, the speed is 0.2, and the robot drives at that speed."""
-    _begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
+    begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
 @parameters.check(4, after=declares_speed, only="tuned")
@@ -103,13 +103,13 @@ def _is_allowed(call: Call) -> bool:
 
 
 def _is_cut(run: Recording, call: Call) -> bool:
-    """Whether a speed was accepted, and the robot drove at the nearest one that is allowed."""
+    """Return whether a speed was accepted, and the robot drove at the nearest one that is allowed."""
     soon = series(run.during(call.requested + 0.3, call.requested + 1.3), "/cmd_vel", "linear.x")
     limit = min(max(_speed(call), LOW), HIGH)
     return is_success(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
 
 
-def _begins_with(run: Recording, speed: float, expected: float, hint: str = "") -> None:
+def begins_with(run: Recording, speed: float, expected: float, hint: str = "") -> None:
     """The parameter has the expected value at the start, and the commands, too."""
     if not math.isclose(speed, expected):
         raise Missed(f"speed {expected} from the start", f"{speed:g}", hint)
@@ -129,22 +129,3 @@ def _drives_at(run: Recording, speed: float, begin: Seconds, end: Seconds) -> No
             'self.get_parameter("speed").value. A value read in __init__ never changes.'
         )
         raise Missed(f"linear.x {speed:g} m/s on /cmd_vel from {begin:.3g} s on", saw, hint, picture="topics")
-
-
-launch = Exercise("launch", "The same node, with another speed", world="yard", seconds=4, companions=[Reader])
-
-
-@launch.check(1)
-def launches_the_cruiser(run: Recording) -> float:
-    """The node /cruiser runs, and has its parameter `speed`."""
-    if all(map(run.is_course_node, run.graph.nodes)):
-        hint = "launch returns what should be started: return Process(...), with Cruiser in it."
-        raise Missed("a node called /cruiser", "no node was started", hint)
-    return declares_speed(run)
-
-
-@launch.check(2, after=launches_the_cruiser,
-              guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).')
-def is_launched_with_a_speed(run: Recording, speed: float) -> None:
-    """It is started with a speed of 0.3, and drives at that speed."""
-    _begins_with(run, speed, LAUNCHED)

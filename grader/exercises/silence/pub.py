@@ -93,12 +93,12 @@ def _turned(run: Recording) -> float:
 
 
 def _is_round(run: Recording) -> bool:
-    """Whether the robot came once round a circle, whatever its radius is."""
+    """Return whether the robot came once round a circle, whatever its radius is."""
     return _turned(run) >= ROUND and traveled(run) >= ROUND * RADIUS
 
 
 def _how_to_read(wrong: str) -> str:
-    """What to do about an error message of ros2."""
+    """Return what to do about an error message of ros2."""
     if "unrecognized arguments" in wrong:
         return ("The shell must see the values as one word: put quotes around them, '{...}', because they "
                 "contain spaces.")

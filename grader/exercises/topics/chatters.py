@@ -99,5 +99,5 @@ def _lines_after(run: Recording, row: Message) -> list[LogLine]:
 
 
 def _has_details(run: Recording, row: Message) -> bool:
-    """Whether the message info of rclpy is logged, which a callback's second parameter is given."""
+    """Return whether the message info of rclpy is logged, which a callback's second parameter is given."""
     return any("source_timestamp" in line.text for line in _lines_after(run, row))

@@ -59,7 +59,7 @@ def _released(course: Course, source: Path) -> NotebookNode:
 
 
 def _content(notebook: NotebookNode) -> list[tuple[str, str, Any]]:
-    """What must agree in each cell: all but the checksum, which covers the answer or the task."""
+    """Return what must agree in each cell: all but the checksum, which covers the answer or the task."""
     return [
         (cell.cell_type, cell.source, {**cell.metadata.get("nbgrader", {}), "checksum": ""})
         for cell in notebook.cells

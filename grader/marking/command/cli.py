@@ -20,6 +20,7 @@ from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
 from grader.marking.pool import Pool
 from grader.marking.progress_line import printable
+from grader.marking.sandbox.confinement import USER
 from grader.marking.self_check import check_marking
 from grader.marking.task import TaskPool
 from grader.marking.version import course_version
@@ -31,6 +32,7 @@ stop and marks what is submitted later. Results are stored in class/marking/; po
 gradebook, notebooks to class/autograded/ and students' pages to class/feedback/, as after
 `nbgrader autograde` and `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # the exit status of shells
+WEAKER = "Here bubblewrap can't make a sandbox, so each student's process is a {}: see grader/README.md."
 USUAL_JOBS = len(usable_cores())
 
 
@@ -131,6 +133,8 @@ def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
     else:
         opened = Pool(settings.jobs, settings.unsafe, secret)
     with opened as pool:
+        if isinstance(pool, Pool) and pool.isolation.startswith(USER):
+            print(WEAKER.format(pool.isolation), file=sys.stderr)
         check_marking(pool)
         yield pool
 

@@ -58,7 +58,7 @@ class Rehearsal:
     broken: dict[str, str] = field(default_factory=dict)
 
     def lines(self, assignment: str) -> Iterator[str]:
-        """What would change, for a terminal."""
+        """Return what would change, for a terminal."""
         if self.changes:
             yield "Marks that would change"
         for change in self.changes:

@@ -11,6 +11,7 @@ from grader.marking.gradebook import due_dates
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.find_submissions import near
+from grader.marking.lateness import FORM, parse_local
 from grader.marking.progress_line import printable
 
 DESCRIPTION = """Show due dates and extensions, or set one: of an assignment, or with --student an extension.
@@ -25,7 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     form = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser("python -m grader due", description=DESCRIPTION, formatter_class=form)
     parser.add_argument("assignment", nargs="?", default="", metavar="ASSIGNMENT")
-    parser.add_argument("when", nargs="?", default="", metavar="WHEN", help=f'such as "{due_dates.FORM}"')
+    parser.add_argument("when", nargs="?", default="", metavar="WHEN", help=f'such as "{FORM}"')
     parser.add_argument("--student", default="", metavar="NAME", help="an extension for this student")
     options = parser.parse_args(arguments)
     if options.assignment and not options.when:
@@ -51,7 +52,7 @@ def _set(course: Course, book: Book, options: argparse.Namespace) -> None:
     name, due = options.assignment, book.due_dates()
     if name not in due:
         raise CourseError(f"the gradebook doesn't know {name}: it has {', '.join(due) or 'no assignments'}")
-    when = None if options.when == NONE else due_dates.parse_local(options.when)
+    when = None if options.when == NONE else parse_local(options.when)
     if not options.student:
         book.set_due_date(name, when)
         due_dates.write_for_students(course, book.due_dates())

@@ -77,7 +77,7 @@ class Summary:
 
     @property
     def any_late(self) -> bool:
-        """Whether a submission was late."""
+        """Return whether a submission was late."""
         return any(row.late for row in self.rows)
 
 

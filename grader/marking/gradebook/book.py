@@ -62,7 +62,7 @@ class Book:
             return {(note.name, cell.name): cell.max_score for note in notebooks for cell in note.grade_cells}
 
     def has(self, assignment: str, student: str, timestamp: datetime | None) -> bool:
-        """Whether it has this submission, with this time."""
+        """Return whether it has this submission, with this time."""
         with self._transaction() as book:
             try:
                 submission = book.find_submission(assignment, student)
@@ -93,7 +93,7 @@ class Book:
             return read_standings(submissions)
 
     def due_dates(self) -> dict[str, datetime | None]:
-        """When each assignment is due (UTC)."""
+        """Return when each assignment is due (UTC)."""
         with self._transaction() as book:
             return {each.name: each.duedate for each in sorted(book.assignments, key=lambda each: each.name)}
 

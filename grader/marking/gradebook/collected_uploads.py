@@ -25,7 +25,7 @@ class CollectedUpload:
     time: str = ""
 
     def is_older(self, other: "CollectedUpload") -> bool:
-        """Whether it was uploaded before another one, as far as that is known."""
+        """Return whether it was uploaded before another one, as far as that is known."""
         return self.attempt < other.attempt or "" < self.time < other.time
 
 

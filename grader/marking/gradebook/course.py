@@ -90,6 +90,10 @@ class Course:
         """The folder of receipts and certificates."""
         return (self.root / self.directory.autograded_directory).parent / "receipts"
 
+    def likeness(self, assignment: str) -> Path:
+        """The folder with the pages that compare the submissions."""
+        return (self.root / self.directory.autograded_directory).parent / "likeness" / assignment
+
     def platform_files(self) -> Path:
         """The folder with what is known of a learning platform's uploads."""
         return (self.root / self.directory.autograded_directory).parent / "platform"
@@ -104,7 +108,7 @@ class Course:
         return {student: folder for student, folder in found.items() if not _name_problem(student)}
 
     def odd_folders(self, assignment: str) -> dict[str, str]:
-        """Why folders with the assignment are left out, by their printable names."""
+        """Return why folders with the assignment are left out, by their printable names."""
         problems = {_shown(student): _name_problem(student) for student in self._folders(assignment)}
         return {name: problem for name, problem in problems.items() if problem}
 
@@ -129,7 +133,7 @@ class Course:
 
 
 def _name_problem(student: str) -> str:
-    """Why a name can't be the name of a file or a text in the gradebook; "" if it can."""
+    """Return why a name can't be the name of a file or a text in the gradebook; "" if it can."""
     length, odd = len(os.fsencode(student)), sorted(FORBIDDEN & set(student))
     saw = "more than one line" if len(student.splitlines()) > 1 or "\n" in student else ""
     saw = saw or (f"{' and '.join(odd)}" if odd else "")
@@ -145,7 +149,7 @@ def _shown(student: str) -> str:
 
 
 def timestamp(folder: Path) -> tuple[datetime | None, str]:
-    """When a submission was handed in (UTC), from its timestamp.txt, with the text of this file.
+    """Return when a submission was handed in (UTC), from its timestamp.txt, with the text of this file.
 
     None and "" if there is none, if it is not a regular file, or if it has no time.
     """
@@ -159,7 +163,7 @@ def write_timestamp(folder: Path, when: datetime) -> None:
 
 
 def time_problem(folder: Path) -> str:
-    """Why the time in a submission's timestamp.txt can't be used, without a full stop; or ""."""
+    """Return why the time in a submission's timestamp.txt can't be used, without a full stop; or ""."""
     text = small_text(folder, TIMESTAMP).strip()
     if not text:
         return ""

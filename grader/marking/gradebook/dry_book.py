@@ -8,7 +8,7 @@ from grader.marking.gradebook.book import Book
 
 
 class DryBook(Book):
-    """As Book, in one transaction that is never committed: what is written can be read until it is closed."""
+    """Like Book, in one transaction that is never committed: it can be read until it is closed."""
 
     @contextlib.contextmanager
     def _transaction(self) -> Iterator[Gradebook]:

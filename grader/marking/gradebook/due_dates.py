@@ -1,26 +1,14 @@
 """Due dates and extensions: nbgrader has the first, and the second once a student has handed in."""
 import json
 from collections.abc import Mapping
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.course import Course
 
-FORM = "2026-12-01 18:00"
 Extensions = dict[str, dict[str, datetime]]  # by assignment and student: until when (UTC)
-
-
-def parse_local(text: str) -> datetime:
-    """A moment in local time, or with an offset, as UTC without a zone. Raises CourseError."""
-    try:
-        moment = datetime.fromisoformat(text.strip())
-    except ValueError:
-        moment = None
-    if moment is None or len(text.strip()) <= len("2026-12-01"):
-        raise CourseError(f"expected day and time such as {FORM}, saw {text!r}")
-    return moment.astimezone(UTC).replace(tzinfo=None)
 
 
 def read_extensions(course: Course) -> Extensions:

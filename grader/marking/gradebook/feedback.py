@@ -108,7 +108,7 @@ def _make_apart(root: Path, assignment: str, students: Sequence[str]) -> int:
 
 
 def is_stale(course: Course, assignment: str, student: str) -> bool:
-    """Whether a page is missing, older than its notebook, truncated, or of another attempt."""
+    """Return whether a page is missing, older than its notebook, truncated, or of another attempt."""
     folder, marked = course.feedback(student, assignment), course.autograded(student, assignment)
     notebooks = marked.glob("*.ipynb")
     if small_text(folder, SUBMISSION_SECRET) != small_text(marked, SUBMISSION_SECRET):

@@ -1,8 +1,8 @@
 """What being late costs: a share of the points for each day that has begun."""
-import math
-
 from nbgrader.plugins import LateSubmissionPlugin
 from traitlets import Float
+
+from grader.marking.lateness import late_penalty
 
 
 class LateDays(LateSubmissionPlugin):
@@ -16,5 +16,4 @@ class LateDays(LateSubmissionPlugin):
         """The points that are lost; what nbgrader's plugin gives if no percentage is set."""
         if not self.percent_per_day:
             return super().late_submission_penalty(student_id, score, total_seconds_late)
-        days = math.ceil(total_seconds_late / 86400)
-        return round(score * min(1.0, days * self.percent_per_day / 100), 2)
+        return late_penalty(score, total_seconds_late, self.percent_per_day)

@@ -70,7 +70,7 @@ def write_notebooks(
 
 
 def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
-    """Whether the notebooks in the student's folder are those of this marking."""
+    """Return whether the notebooks in the student's folder are those of this marking."""
     folder = course.autograded(entry.result.student, entry.result.assignment)
     submitted = course.submitted(entry.result.student, entry.result.assignment)
     same = small_text(submitted, SUBMISSION_SECRET) == small_text(folder, SUBMISSION_SECRET)

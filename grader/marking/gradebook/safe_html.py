@@ -129,7 +129,7 @@ def _kept(tag: str, name: str, value: str) -> str | None:
 
 
 def _stays(rule: str) -> bool:
-    """Whether a CSS rule such as "margin: 1em" moves nothing over the page."""
+    """Return whether a CSS rule such as "margin: 1em" moves nothing over the page."""
     name, _, value = rule.partition(":")
     return not name.strip().lower().startswith("margin") or bool(MARGIN.fullmatch(value))
 

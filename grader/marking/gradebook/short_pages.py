@@ -20,7 +20,7 @@ TOO_LONG = "This is too long to be shown here."
 
 
 def too_long(html: str) -> bool:
-    """Whether it is too long to be cleaned in a short time."""
+    """Return whether it is too long to be cleaned in a short time."""
     return _length(html) > MAX_TEXT_CHARS
 
 

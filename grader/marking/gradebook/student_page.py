@@ -17,12 +17,12 @@ from pygments.formatters import HtmlFormatter
 from traitlets.config import Config
 
 from grader.local_time import format_local
-from grader.marking.gradebook.student_standings import DAY
+from grader.marking.lateness import DAY_S
 from grader.marking.outputs import FOR_INSTRUCTOR
 
 HEADING = re.compile(r"^#{1,6}\s+(.+?)\s*$", re.MULTILINE)
 WORTH = re.compile(r"\s*\(\d+(\.\d+)? points?\)$")
-UNITS = (DAY, "days"), (3600.0, "hours"), (60.0, "minutes")
+UNITS = (DAY_S, "days"), (3600.0, "hours"), (60.0, "minutes")
 MARKS = str.maketrans("", "", "`*")
 
 
@@ -50,7 +50,7 @@ class StudentPage(HTMLExporter):
     def from_notebook_node(
         self, nb: NotebookNode, resources: dict[str, Any] | None = None, **kw: Any
     ) -> tuple[str, dict[str, Any]]:
-        """As HTMLExporter. resources: nbgrader's, with student and assignment."""
+        """Work like HTMLExporter. resources: nbgrader's, with student and assignment."""
         about = (resources or {})["nbgrader"]
         self.environment.globals["page"] = {
             "name": _name(about),
@@ -65,7 +65,7 @@ class StudentPage(HTMLExporter):
         return super().from_notebook_node(nb, resources, **kw)
 
     def _preprocess(self, nb: NotebookNode, resources: dict[str, Any]) -> tuple[NotebookNode, dict[str, Any]]:
-        """As HTMLExporter. nbgrader's preprocessors enter the scores; the contents need them."""
+        """Work like HTMLExporter. nbgrader's preprocessors enter the scores; the contents need them."""
         nb, resources = super()._preprocess(nb, resources)
         self.environment.globals["page"]["contents"] = list(_contents(nb))
         return nb, resources
@@ -84,7 +84,7 @@ def _name(about: dict[str, Any]) -> str:
 
 
 def _late(about: dict[str, Any]) -> str:
-    """How late it was handed in, or ""."""
+    """Return how late it was handed in, or ""."""
     try:
         with Gradebook(about["db_url"]) as book:
             found = book.find_submission(about["assignment"], about["student"])

@@ -8,7 +8,8 @@ from nbgrader.api import Gradebook, SubmittedAssignment, SubmittedNotebook
 from nbgrader.apps import NbGrader
 from nbgrader.preprocessors import AssignLatePenalties
 
-DAY = 86400.0  # seconds
+from grader.marking.lateness import DAY_S
+
 Cell = tuple[str, str]  # notebook and name
 
 
@@ -52,7 +53,7 @@ def _standing(found: SubmittedAssignment) -> Standing:
         frozenset((name, each.name) for name, each in grades if _by_hand(each)),
         tuple(sorted(comments)),
         found.late_submission_penalty or 0.0,
-        found.total_seconds_late / DAY,
+        found.total_seconds_late / DAY_S,
     )
 
 

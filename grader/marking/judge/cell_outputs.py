@@ -95,7 +95,7 @@ class CellOutputs:
             self._displays.outputs += 1
 
     def _has_room(self, output: dict[str, Any]) -> bool:
-        """Whether it still fits. Otherwise its text is truncated, and one line says so."""
+        """Return whether it still fits. Otherwise its text is truncated, and one line says so."""
         if self._full and not self._clear:
             return False
         self._begin()

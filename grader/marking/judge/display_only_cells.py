@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from symtable import SymbolTable, symtable
 
-RUNS = {"run", "packages.see"}  # a cell that calls one of these displays a run
+# A cell that calls one of these displays a run, or a source, which the student's process doesn't have.
+DISPLAYS = {"run", "packages.see", "launching.see", "testing.see", "inspect.getsource"}
 ROS2 = re.compile(r"^%ros2\b.*$", re.M)  # shows the last run
 # A cell with one of these may use a name that is not in its source.
 HIDDEN = {"eval", "exec", "globals", "locals", "vars", "get_ipython"}
@@ -59,7 +60,7 @@ def _display_cell(source: str) -> DisplayCell | None:
     if any(_changes(node) for node in _outside_functions(tree)):
         return None
     called = {ast.unparse(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
-    return DisplayCell(set(_bound(tree)), _used(source), bool(RUNS & called or ROS2.search(source)))
+    return DisplayCell(set(_bound(tree)), _used(source), bool(DISPLAYS & called or ROS2.search(source)))
 
 
 def _bound(tree: ast.Module) -> Iterator[str]:

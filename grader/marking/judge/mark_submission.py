@@ -64,7 +64,8 @@ def fill_in_missed_tests(marking: MarkingState) -> None:
     """Give no points for tests that were not reached."""
     for name, results in marking.cells.items():
         done = {result.cell for result in results}
-        tests = [cell for cell in marking.notebook(name).cells if is_test(cell)]
+        cells = marking.notebook(name).cells
+        tests = [cell for cell in cells if is_test(cell) and marking.task.judges(cell_name(cell))]
         missed = [cell for cell in tests if cell_name(cell) not in done]
         results += [no_points(cell, marking.exercises[name][cell_name(cell)]) for cell in missed]
         order = [cell_name(cell) for cell in tests]

@@ -88,7 +88,7 @@ class NotebookRun:
             self._restart(index)
 
     def _can_restart(self, index: int) -> bool:
-        """Whether a new process may run the cells below, and there is a test among them."""
+        """Return whether a new process may run the cells below, and there is a test among them."""
         in_time = self._session.over > monotonic()
         return self._left > 0 and in_time and any(map(is_test, self._cells[index + 1 :]))
 
@@ -156,6 +156,9 @@ class NotebookRun:
     ) -> list[dict[str, Any]]:
         """Judge the nodes of a test cell; returns the cell's outputs, which are the judge's own."""
         exercise = self._exercises[cell_name(cell)]
+        if not self._marking.task.judges(cell_name(cell)):
+            session.run(EMPTY_CELL, shown)
+            return []
         if isinstance(exercise, PlainTest):
             return self._plain_test(session, cell, shown)
         tested = session.test(cell.source, exercise, shown, self._marking.secret)
@@ -207,7 +210,7 @@ class NotebookRun:
         return [*_text(words), *self._written(shown)]
 
     def _written(self, shown: CellOutputs) -> list[dict[str, Any]]:
-        """What the nodes printed; in private worlds for the instructor alone, as it may reveal them."""
+        """Return what the nodes printed; in private worlds for the instructor alone: it may reveal them."""
         make = score_outputs.for_instructor if self._marking.secret else _text
         return make(shown.printed_text)
 

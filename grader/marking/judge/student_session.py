@@ -30,7 +30,7 @@ class NodeJudge(Protocol):
     name: str
 
     def judge(self, source: ProgramSource, secret: str = "") -> Score:
-        """As `Exercise.judge`."""
+        """Work like `Exercise.judge`."""
 
 
 class DeadlineWire(Wire):
@@ -39,7 +39,7 @@ class DeadlineWire(Wire):
     deadline = math.inf
 
     def receive(self, timeout: float | None = None) -> dict[str, Any]:
-        """As `Wire.receive`."""
+        """Work like `Wire.receive`."""
         left = self.deadline - monotonic()
         if left <= 0:
             raise WireTimeout("the time is up")

@@ -29,7 +29,7 @@ def exercise_names(notebook: NotebookNode) -> dict[str, str]:
 
 
 def is_test(cell: Mapping[str, Any]) -> bool:
-    """Whether it is one of nbgrader's "autograded tests"."""
+    """Return whether it is one of nbgrader's "autograded tests"."""
     settings = cell["metadata"].get("nbgrader", {})
     is_graded = bool(settings.get("grade")) and not settings.get("solution")
     return cell["cell_type"] == "code" and is_graded
@@ -51,7 +51,7 @@ def find_exercise(name: str) -> Any:
 
 
 def course_imports(sources: Iterable[str]) -> dict[str, str]:
-    """What the cells import from grader.exercises: full names by their local names."""
+    """Return what the cells import from grader.exercises: full names by their local names."""
     found: dict[str, str] = {}
     for source in sources:
         for node in ast.walk(_parsed(source) or ast.Module([], [])):

@@ -23,20 +23,21 @@ NAME = "ros2-course"
 # Included besides lessons and exercises; parts of it are excluded below.
 INCLUDED = (
     *("COLCON_IGNORE", "LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
-    *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
+    *(".ci/setup", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
 MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "self_check.py"),
-    "spreadsheet.py",
-    "judge/patrol_faults.py",
-    *("extras/dask_cluster", "extras/hub", "extras/learning_platform", "extras/receipts"),
+    *("spreadsheet.py", "lateness.py"),
+    *("extras/one_submission", "extras/dask_cluster", "extras/hub", "extras/learning_platform"),
+    *("extras/likeness", "extras/platforms", "extras/receipts"),
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
     *("jupyter/teach", "jupyter/hub", "course/README.md"),
     *("grader/README.md", "grader/YOUR_FIRST_EXERCISE.md"),
 )
+ANSWERS = re.compile(r"grader/exercises/\w+/\w+/answers\.py")  # an exercise's, which students don't get
 TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile that are included
 TOOL_FOLDERS = {"__pycache__", ".ipynb_checkpoints", "build"}
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
@@ -66,7 +67,8 @@ def _files(course: Path) -> Iterator[Path]:
 
 
 def _is_excluded(name: str) -> bool:
-    return any(name == part or name.startswith(f"{part}/") for part in EXCLUDED)
+    excluded = any(name == part or name.startswith(f"{part}/") for part in EXCLUDED)
+    return excluded or ANSWERS.fullmatch(name) is not None
 
 
 def _content(path: Path) -> bytes:

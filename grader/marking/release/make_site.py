@@ -11,20 +11,24 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import nbformat
+from nbformat import NotebookNode
 
 from grader.course_notebooks import BRIDGE, course_order
 from grader.marking.errors import CommandFailed
-from grader.marking.release.run_notebooks import execute
+from grader.marking.release.service_notebooks import add_service_link, published
 from grader.marking.release.site_home import home_page
+from grader.marking.release.site_pages import executed_pages
 from grader.marking.release.site_search import search_script
 from grader.work_folder import student_files
 
 SETTINGS = Path(__file__).with_name("sphinx_settings.py")
+STYLE = Path(__file__).with_name("site.css")
 PAGES = ("glossary.md", "real_robot.md", "TUTOR.md")  # of course/, in this order
 NOTEBOOK_LINK = re.compile(r'(href="[^":]+)\.ipynb(?=[#"])')
+OUTCOME = '<div class="ros2-outcome"'  # of a prediction
 START = Path("course", "start.ipynb")  # a student's own progress: the site has a home page in its place
 INDEX = """# ROS 2 in notebooks
 
@@ -58,10 +62,13 @@ INDEX = """# ROS 2 in notebooks
 """
 
 
-def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Callable[[str], None]) -> None:
-    """Write everything that the site is built from; only the chosen lessons, if any, are executed.
+def write_pages(
+    course: Path, folder: Path, kept: Path, chosen: Sequence[str], report: Callable[[str], None]
+) -> None:
+    """Write everything that the site is built from; only the chosen lessons, if any, have outputs.
 
-    report: called with a line for each notebook that is executed. Raises CommandFailed.
+    kept: the folder with the outputs of earlier builds. report: called with the name of each notebook that is
+    executed. Raises CommandFailed.
     """
     notebooks = {"course": [], "exercises": []}
     for source in sorted(student_files(course), key=course_order):
@@ -73,10 +80,11 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
         shutil.copyfile(source, target)
         if name.suffix == ".ipynb":
             notebooks[name.parts[0]].append(name)
-    for name in notebooks["course"]:
-        if not chosen or name.parent.name in chosen:
-            report(str(name))
-            _write_executed(course / name, folder / name)
+    names = [name for name in notebooks["course"] if not chosen or name.parent.name in chosen]
+    for name, notebook in zip(names, executed_pages(course, names, kept, report), strict=True):
+        nbformat.write(_without_kernel(notebook), folder / name)
+    for name in (*notebooks["course"], *notebooks["exercises"]):
+        add_service_link(folder / name, PurePosixPath(name), published(course))
     overview = [f"course/{page.removesuffix('.md')}" for page in PAGES]
     lessons = [name.with_suffix("").as_posix() for name in notebooks["course"] if len(name.parts) > 2]
     bridge = [name for name in lessons if name.startswith(f"course/{BRIDGE}/")]
@@ -89,19 +97,22 @@ def write_pages(course: Path, folder: Path, chosen: Sequence[str], report: Calla
     (folder / "search.js").write_text(search_script(folder, pages), encoding="utf-8")
     (folder / "home.html").write_text(home_page(course), encoding="utf-8")
     shutil.copyfile(SETTINGS, folder / "conf.py")
+    (folder / "static").mkdir(exist_ok=True)
+    shutil.copyfile(STYLE, folder / "static" / STYLE.name)
 
 
-def _write_executed(source: Path, target: Path) -> None:
-    notebook, stopped = execute(source)
-    if stopped:
-        raise CommandFailed(f"{source} could not be executed: {' '.join(stopped)}")
+def _without_kernel(notebook: NotebookNode) -> NotebookNode:
+    """An executed notebook as a page: links lead to pages, and predictions can be made."""
+    notebook.metadata.pop("widgets", None)
     for cell in notebook.cells:
+        if cell.metadata.get("jupyter", {}).get("source_hidden"):
+            cell.metadata.tags = [*cell.metadata.get("tags", ()), "remove-input"]
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
             if "text/html" in data:  # such as the map, which links to notebooks
-                data["text/html"] = NOTEBOOK_LINK.sub(r"\1.html", data["text/html"])
-    notebook.metadata.pop("widgets", None)
-    nbformat.write(notebook, target)
+                page = NOTEBOOK_LINK.sub(r"\1.html", data["text/html"])
+                data["text/html"] = page.replace(OUTCOME, f"{OUTCOME} data-recorded")
+    return notebook
 
 
 def build(sphinx: Path, source: Path, target: Path) -> None:
@@ -122,13 +133,16 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("--sphinx", type=Path, required=True, metavar="PROGRAM", help="sphinx-build")
     parser.add_argument("--to", type=Path, default=Path("dist", "site"), help="default: dist/site")
-    parser.add_argument("--lesson", action="append", default=[], help="a folder: execute this one only")
+    parser.add_argument("--lesson", action="append", default=[], help="a folder: only this one has outputs")
     options = parser.parse_args(arguments)
     try:
         with tempfile.TemporaryDirectory() as place:
-            write_pages(Path.cwd(), Path(place), options.lesson, lambda line: print(line, flush=True))
+            kept = options.to.with_name(f"{options.to.name}-outputs")
+            pages, site = Path(place, "pages"), Path(place, "site")
+            write_pages(Path.cwd(), pages, kept, options.lesson, lambda line: print(line, flush=True))
+            build(options.sphinx, pages, site)
             shutil.rmtree(options.to, ignore_errors=True)
-            build(options.sphinx, Path(place), options.to)
+            shutil.move(site, options.to)
     except CommandFailed as error:
         print(error, file=sys.stderr)
         return 1

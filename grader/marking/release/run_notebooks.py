@@ -17,7 +17,9 @@ from nbclient.exceptions import DeadKernelError
 from nbformat import NotebookNode
 from nbgrader.utils import determine_grade, is_grade
 
-SECONDS_PER_CELL = 300  # only against hanging: a busy machine is slow
+# The start page lists exercises; page 10 of the bridge runs the navigator of lesson 6b.
+READ_BY_OTHERS = "exercises", "06_navigator"
+SECONDS_PER_CELL = 1800  # only against hanging: a busy machine compiles for minutes
 KERNEL_START = 600  # s, likewise
 KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns about its open ports
 
@@ -26,6 +28,7 @@ KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns a
 class TestCellMark:
     """The points of a test cell. missed: the lines of its score that did not pass."""
 
+    __test__ = False  # its name begins as a test's does, for pytest
     cell: str
     points: float
     most: float
@@ -53,7 +56,7 @@ class ExecutedNotebook:
 
     @property
     def is_right(self) -> bool:
-        """Whether it ran without errors and has all points."""
+        """Return whether it ran without errors and has all points."""
         return not self.problems and all(marks.points >= marks.most for marks in self.marks)
 
 
@@ -67,7 +70,7 @@ def run_notebook(path: Path) -> ExecutedNotebook:
     """Run a notebook to its end, even if cells raise. The file and its folder are not changed."""
     begin = time.monotonic()
     notebook, stopped = execute(path)
-    problems = [problem for cell in notebook.cells for problem in _problems(cell)]
+    problems = errors_of(notebook)
     marks = tuple(_marks(cell) for cell in notebook.cells if is_grade(cell) and cell.cell_type == "code")
     return ExecutedNotebook(path, time.monotonic() - begin, marks, (*problems, *stopped))
 
@@ -78,15 +81,21 @@ def execute(path: Path) -> tuple[NotebookNode, tuple[str, ...]]:
     return notebook, execute_notebook(notebook, path)
 
 
-def execute_notebook(notebook: NotebookNode, path: Path) -> tuple[str, ...]:
-    """Execute a notebook as if it were the file at this path; returns why it stopped early, if it did."""
+def execute_notebook(notebook: NotebookNode, path: Path, start: str = "pass") -> tuple[str, ...]:
+    """Execute a notebook as if it were the file at this path; returns why it stopped early, if it did.
+
+    start: a line that its kernel runs before the first cell.
+    """
     with tempfile.TemporaryDirectory() as place:
         # Lessons write files, and read others beside them.
         folder = Path(shutil.copytree(path.resolve().parent, Path(place, path.resolve().parent.name)))
-        beside = path.resolve().parents[1] / "exercises"
-        if beside.is_dir():  # the start page lists both
-            Path(place, "exercises").symlink_to(beside)
-        options = {"interrupt_on_timeout": True, "extra_arguments": KERNEL_OPTIONS}
+        for beside in (path.resolve().parents[1] / name for name in READ_BY_OTHERS):
+            if beside.is_dir() and not Path(place, beside.name).exists():
+                Path(place, beside.name).symlink_to(beside)
+        options = {
+            "interrupt_on_timeout": True,
+            "extra_arguments": [*KERNEL_OPTIONS, f"--IPKernelApp.exec_lines={start}"],
+        }
         client = notebook_client(notebook, SECONDS_PER_CELL, **options)
         try:
             client.execute(cwd=str(folder))
@@ -104,6 +113,11 @@ def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> N
     client = NotebookClient(notebook, timeout=seconds, **options)
     client.comm_open_handlers.clear()
     return client
+
+
+def errors_of(notebook: NotebookNode) -> list[str]:
+    """A line for each error that a cell of an executed notebook raised."""
+    return [problem for cell in notebook.cells for problem in _problems(cell)]
 
 
 def _problems(cell: NotebookNode) -> Iterator[str]:

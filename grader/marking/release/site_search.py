@@ -10,7 +10,10 @@ import nbformat
 from grader.course_notebooks import read_text
 
 TERM = re.compile(r"^\| \*\*(.+?)\*\* \|.*\| ([\d, ]+) \|$", re.MULTILINE)  # a row of glossary.md
-MARKUP = re.compile(r"```.*?```|<[^>]+>|!?\[|\]\([^)]*\)|[*`#|$]", re.DOTALL)
+_FORMULAS, _RULES = r"\$\$.*?\$\$|\$[^$\n]+\$", r"^[|\s:-]*--[|\s:-]*$"  # the rules are of tables
+MARKUP = re.compile(
+    rf"```.*?```|{_FORMULAS}|<[^>]+>|!?\[|\]\([^)]*\)|{_RULES}|[*`#|]", re.DOTALL | re.MULTILINE
+)
 
 
 def search_script(folder: Path, pages: Iterable[str]) -> str:

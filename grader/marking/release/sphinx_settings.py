@@ -11,6 +11,7 @@ extensions = ["myst_nb"]
 html_theme = "furo"
 html_math_renderer = "mathml"
 html_show_sourcelink = html_copy_source = html_show_copyright = html_show_sphinx = False
+html_static_path, html_css_files = [str(Path(__file__).with_name("static"))], ["site.css"]
 html_search_scorer = str(Path(__file__).with_name("search.js"))  # by site_search.py
 exclude_patterns = ["AGENTS.md", "README.md"]
 suppress_warnings = ["myst.header", "myst.xref_missing", "mystnb.mime_priority", "mystnb.unknown_mime_type"]

@@ -22,17 +22,15 @@ from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute_notebook
 
 LESSONS = "course/[0-9][0-9]_*/*.ipynb"
-# Lessons whose goal is a diagram in text: the cell that shows it later, and how it is drawn.
+# Lessons whose goal is a diagram: the cell that shows it later, and how it is drawn.
 SHOWN = {
-    "02_topics/lesson": ("together-run", "graph"),
-    "04_actions/lesson": ("whole-run", "graph"),
+    "02_topics/connecting": ("together-topics", "graph"),
     "04_actions/driving": ("together-run", "world"),
     "05_sensing/guarding": ("whole-run", "world"),
     "06_navigator/lesson": ("avoid-maze-run", "world"),
     "06_navigator/navigating": ("whole-run", "world"),
     "13_delivery/faults": ("wrong-run", "world"),
 }
-DRAWINGS = {"plot_graph": "graph", "plot_logs": "log"}  # by the function of the cell's last line
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
 
 
@@ -83,7 +81,7 @@ def _shown(source: str) -> tuple[str, str] | None:
     if isinstance(call.func, ast.Attribute) and call.func.attr == "replay":
         return ast.unparse(call.func.value), "world"
     if isinstance(call.func, ast.Name) and call.args and re.match("plot_|animate", call.func.id):
-        return ast.unparse(call.args[0]), DRAWINGS.get(call.func.id, "world")
+        return ast.unparse(call.args[0]), "graph" if call.func.id == "plot_graph" else "world"
     return None
 
 

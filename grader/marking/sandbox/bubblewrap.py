@@ -38,7 +38,7 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
     for path in extra:
         os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
-    course = *_packages(), *MODULES.glob("*.py"), TOOLS / "build_tools"
+    course = *_packages(), MODULES, TOOLS  # whole folders: a new interpreter lists them
     paths = {Path(path).absolute() for path in (*python, *course, *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]

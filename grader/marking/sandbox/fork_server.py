@@ -16,7 +16,7 @@ import traceback
 from typing import Any, NoReturn
 
 from grader.marking.sandbox import linux
-from grader.marking.sandbox.confinement import Confinement
+from grader.marking.sandbox.confinement import NONE, Confinement
 from grader.marking.sandbox.resource_limits import ResourceLimits
 from grader.marking.sandbox.supervisor import EntryFunction, supervise
 
@@ -27,14 +27,14 @@ class ForkServer:
     def __init__(self, control: socket.socket, order: dict[str, Any]) -> None:
         self._control = control
         limits = ResourceLimits(**order["limits"])
-        self._confinement = Confinement(limits, order["sandboxed"], order["visible"], order["hidden"])
-        if self._confinement.sandboxed:  # before imports, which may hang
+        self._confinement = Confinement(limits, order["kind"], order["visible"], order["hidden"])
+        if self._confinement.kind != NONE:  # before imports, which may hang
             linux.die_with_parent(signal.SIGKILL)
             if _is_closed(control):  # the parent may have died before that
                 os._exit(0)
         self._entry = _load(order)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # supervisors report to the Sandbox, not here
-        if self._confinement.sandboxed:
+        if self._confinement.kind != NONE:
             linux.set_dumpable(False)
 
     def fork(self, entry: EntryFunction, wire: socket.socket, report: socket.socket) -> None:
@@ -72,7 +72,7 @@ class ForkServer:
 
 
 def _is_closed(control: socket.socket) -> bool:
-    """Whether the Sandbox has closed its end."""
+    """Return whether the Sandbox has closed its end."""
     try:
         return not control.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
     except BlockingIOError:

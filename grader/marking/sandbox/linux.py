@@ -100,6 +100,11 @@ def be_killed_first() -> None:
     Path("/proc/self/oom_score_adj").write_text("1000")
 
 
+def forbid_privileges() -> None:
+    """No program that this process starts gains privileges, such as those of setuid programs."""
+    _prctl(_PR_SET_NO_NEW_PRIVS, 1)
+
+
 def drop_capabilities() -> None:
     """Drop every capability, for good: `filter_calls` sets that no program regains privileges."""
     header = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION_3, 0)
@@ -112,5 +117,5 @@ def filter_calls(program: bytes) -> None:
     class BpfProgram(ctypes.Structure):
         _fields_ = [("length", ctypes.c_ushort), ("instructions", ctypes.c_char_p)]
 
-    _prctl(_PR_SET_NO_NEW_PRIVS, 1)
+    forbid_privileges()
     _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(BpfProgram(len(program) // 8, program)))

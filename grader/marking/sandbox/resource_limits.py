@@ -7,7 +7,7 @@ from dataclasses import dataclass
 MB = 1024 * 1024
 
 # exited: by itself. killed: from outside. crashed: by a signal. The others: it met a limit.
-KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "idle", "threads")
+KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "idle", "threads", "disk")
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ USUAL = ResourceLimits()
 
 @dataclass(frozen=True)
 class ProcessEnd:
-    """How a confined process ended.
+    """The end of a confined process.
 
     kind: one of KINDS. detail: the same as a sentence. code: its exit status, negative for a signal.
     cpu_s: its CPU time. peak_mb: its peak memory, None if that is unknown.

@@ -1,5 +1,6 @@
 """Starts confined processes: a warm interpreter inside bubblewrap forks them."""
 
+import os
 import platform
 import socket
 import threading
@@ -9,11 +10,13 @@ from pathlib import Path
 from typing import Self
 
 from grader.marking.errors import SandboxFailed, SandboxMissing
-from grader.marking.sandbox import bubblewrap
+from grader.marking.sandbox import bubblewrap, landlock, separate_user
 from grader.marking.sandbox.confined_process import ConfinedProcess
+from grader.marking.sandbox.confinement import BUBBLEWRAP, NONE, USER
 from grader.marking.sandbox.resource_limits import USUAL, ResourceLimits
 from grader.marking.sandbox.warm_process import WarmProcess
 
+ISOLATIONS = (BUBBLEWRAP, f"{USER} with Landlock", USER, NONE)
 PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.core.interactiveshell")
 
 
@@ -24,7 +27,7 @@ class Sandbox:
     preload: modules that are imported once, before any confined process. imports: folders with more modules.
     readable: files and folders that can be read inside, at the same paths as here. Besides those they see the
     system's programs, Python with its packages, and the packages sim and grader; nothing else.
-    hidden: folders that are empty for the processes; what is in them can only be imported before.
+    hidden: folders that are empty for the processes, or closed; what is in them can only be imported before.
     unsafe: no isolation. They are plain processes with the same limits and all rights of the user who marks:
     they can read and write all files, use the network and kill processes. For machines without bubblewrap,
     and for code that is trusted.
@@ -40,7 +43,7 @@ class Sandbox:
         imports: Sequence[Path] = (),
         hidden: Sequence[Path] = (),
     ) -> None:
-        """Start the warm process.
+        """Start the warm process, in the first kind of isolation that this machine allows.
 
         Raises SandboxMissing, SandboxFailed if what it imports fails, FileNotFoundError for what is readable.
         """
@@ -54,12 +57,31 @@ class Sandbox:
             "preload": list(preload),
             "imports": [str(path) for path in imports],
             "limits": asdict(limits),
-            "sandboxed": not unsafe,
+            "kind": NONE if unsafe else BUBBLEWRAP,
             "hidden": list(map(str, hidden)),
             "visible": [] if unsafe else bubblewrap.visible_paths([*readable, *imports]),
         }
         self._lock = threading.Lock()
-        self._warm: WarmProcess | None = WarmProcess(self._order)
+        self._warm: WarmProcess | None = self._start_warm()
+
+    @property
+    def isolation(self) -> str:
+        """Return how the processes are isolated: one of ISOLATIONS."""
+        kind = self._order["kind"]
+        return f"{USER} with Landlock" if kind == USER and landlock.version() else kind
+
+    def _start_warm(self) -> WarmProcess:
+        """Where bubblewrap can't make a sandbox, use separate users, if that works. Raises SandboxMissing."""
+        try:
+            return WarmProcess(self._order)
+        except SandboxMissing as reason:
+            if os.geteuid():  # only root can have others
+                raise
+            closed = [*self._order["hidden"], os.getcwd()]
+            if problem := separate_user.why_not(self._order["visible"], closed):
+                raise SandboxMissing(f"{reason} {problem}") from None
+        self._order["kind"] = USER
+        return WarmProcess(self._order)
 
     def start(self, sock: socket.socket) -> ConfinedProcess:
         """Start a process that gets `sock`, which is closed here; `wait` for it. Raises SandboxFailed."""

@@ -14,7 +14,9 @@ _CLONE_THREAD = 0x10000
 _CLONE_NEW = 0x7E020000  # any of the namespaces
 _AF_UNIX, _AF_INET, _AF_NETLINK, _NETLINK_ROUTE = 1, 2, 16, 0
 
-_CLONE, _CLONE3, _SOCKET = 56, 435, 41
+_SOCK_DGRAM, _SOCK_TYPE = 2, 0xF
+
+_CLONE, _CLONE3, _SOCKET, _SOCKETPAIR = 56, 435, 41, 53
 
 PROGRAMS = {"fork": 57, "vfork": 58, "execve": 59, "execveat": 322}  # new processes and programs
 DENIED = {
@@ -41,6 +43,10 @@ DENIED = {
     "adjtimex": 159, "acct": 163, "quotactl": 179, "quotactl_fd": 443, "syslog": 103, "vhangup": 153,
 }  # fmt: skip
 
+# Where there is no network namespace: nothing that reaches another process's socket.
+NETWORK = {"socket": _SOCKET, "connect": 42, "bind": 49, "listen": 50, "accept": 43, "accept4": 288}
+
+_AND = 0x54
 _LOAD, _EQUAL, _AT_LEAST, _HAS, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 _NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16  # offsets in struct seccomp_data
 
@@ -64,8 +70,18 @@ def _rule(number: int, *steps: bytes) -> bytes:
     return _step(_EQUAL, number, 0, len(steps)) + b"".join(steps)
 
 
-def program(programs: bool = False) -> bytes:
-    """Return the filter as BPF instructions of 8 bytes. programs: whether it allows starting programs."""
+def _no_sockets() -> list[bytes]:
+    """Deny sockets. From one of a pair of datagrams, messages could be sent to any other Unix socket."""
+    kind = _argument(1) + _step(_AND, _SOCK_TYPE)
+    pairs = _step(_EQUAL, _SOCKETPAIR, 0, 5) + kind + _step(_EQUAL, _SOCK_DGRAM, 0, 1) + _DENY + _ALLOW
+    return [pairs, *(_rule(number, _DENY) for number in NETWORK.values())]
+
+
+def program(programs: bool = False, sockets: bool = True) -> bytes:
+    """Return the filter as BPF instructions of 8 bytes.
+
+    programs: whether it allows starting programs. sockets: whether it allows any but connected pairs.
+    """
     denied = DENIED if programs else PROGRAMS | DENIED
     new, others = (_CLONE_NEW, (0, 1)) if programs else (_CLONE_THREAD, (1, 0))
     steps = [
@@ -78,6 +94,7 @@ def program(programs: bool = False) -> bytes:
         # clone3 has its flags in memory, which no filter can read: glibc falls back to clone.
         _rule(_CLONE3, _UNKNOWN),
         _rule(_CLONE, _argument(0), _step(_HAS, new, *others), _DENY, _ALLOW),
+        *([] if sockets else _no_sockets()),
         # Fast DDS opens UDP sockets, and netlink to list the interfaces; nothing is reachable through them.
         # Other families, such as sockets to the host of a virtual machine, belong to no network namespace.
         _rule(

@@ -14,8 +14,8 @@ import traceback
 from collections.abc import Callable
 from typing import IO, Any, NoReturn
 
-from grader.marking.sandbox import confinement, linux, mounts
-from grader.marking.sandbox.confinement import Confinement
+from grader.marking.sandbox import confinement, linux, mounts, separate_user
+from grader.marking.sandbox.confinement import HOME, Confinement, Home
 from grader.marking.sandbox.process_tree import TreeUsage, tree_usage
 from grader.marking.sandbox.resource_limits import MB, ProcessEnd, ResourceLimits
 
@@ -64,7 +64,7 @@ def _supervise(
             raise OSError(problem)
         socket.send_fds(report, [b"{}"], [pidfd])
         reserved = _reserved_mb(process, processes)
-        reason = _watch(process, pidfd, processes, how.limits)
+        reason = _watch(process, pidfd, processes, how.limits, home)
         _, status, used = os.wait4(process, 0)
         end = describe(status, used, how.limits, reason, reserved)
         tail = _tail(stderr)
@@ -78,7 +78,9 @@ def _problem(ready: int) -> str:
     return "" if report == b"ready" else report.decode() or "the process died before it was confined"
 
 
-def _watch(process: int, pidfd: int, processes: int, limits: ResourceLimits) -> str:
+def _watch(
+    process: int, pidfd: int, processes: int, limits: ResourceLimits, home: Home = Home(HOME)  # noqa: B008
+) -> str:
     """Return when the confined process has ended: the kind of limit for which it was killed, or "".
 
     See proc(5) for the fields of `stat`.
@@ -88,6 +90,9 @@ def _watch(process: int, pidfd: int, processes: int, limits: ResourceLimits) -> 
     poll.register(pidfd, select.POLLIN)
     since, before = time.monotonic(), 0.0
     while not poll.poll(1000 * WATCH_S):
+        if home.user is not None and separate_user.too_many_files(home.user, home.path, limits):
+            os.kill(process, signal.SIGKILL)
+            return "disk"
         if limits.programs:
             usage = tree_usage(process, processes)
             if abs(usage.cpu_s - before) > IDLE_CPU_S:
@@ -150,7 +155,7 @@ def _become_confined(
     answer: int,
     stderr: IO[bytes],
     how: Confinement,
-    home: str,
+    home: Home,
 ) -> NoReturn:
     """Confine this process, then run the entry in it. Never returns."""
     code = 1
@@ -197,6 +202,8 @@ def describe(
         "cpu": f"The process computed for more than the {limits.cpu_s} s that are allowed.",
         "idle": f"The process did nothing for more than the {limits.idle_s:g} s that are allowed.",
         "time": f"The process ran for more than the {limits.wall_s:g} s that are allowed.",
+        "disk": f"The process wrote more than the {limits.scratch_files} files, or {limits.scratch_mb} MB, "
+        "that are allowed.",
         "threads": f"The process had more than the {limits.threads} threads that are allowed.",
     }
     return ProcessEnd(kind, details[kind], code, round(cpu_s, 3), round(peak_mb, 1))

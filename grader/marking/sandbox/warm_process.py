@@ -12,9 +12,10 @@ import tempfile
 import threading
 from typing import IO, Any
 
-from grader.marking.errors import SandboxFailed
-from grader.marking.sandbox import bubblewrap, linux
+from grader.marking.errors import SandboxFailed, SandboxMissing
+from grader.marking.sandbox import bubblewrap, linux, separate_user
 from grader.marking.sandbox.confined_process import ConfinedProcess
+from grader.marking.sandbox.confinement import BUBBLEWRAP, USER
 
 START_S = 120.0  # for the imports, on a busy machine
 STDERR_BYTES = 2000  # of its stderr that an error shows
@@ -31,6 +32,9 @@ class WarmProcess:
         self._lock = threading.Lock()
         # The home of confined processes without a sandbox.
         self._folder = tempfile.TemporaryDirectory(prefix="confined-", ignore_cleanup_errors=True)
+        self._kind = order["kind"]
+        if self._kind == USER:
+            os.chmod(self._folder.name, 0o711)  # each has a folder in it, of its own user
         self._control, child_end = socket.socketpair(type=socket.SOCK_SEQPACKET)
         with tempfile.TemporaryFile() as errors:
             try:
@@ -61,6 +65,8 @@ class WarmProcess:
             )
         [self._pidfd] = descriptors
         report = json.loads(answer)
+        if "forbidden" in report and order["kind"] == USER:
+            raise SandboxMissing(f"Separate users don't work on this machine: {report['forbidden']}.")
         if "forbidden" in report:
             raise bubblewrap.forbidden(report["forbidden"])
         if "failed" in report:
@@ -107,6 +113,8 @@ class WarmProcess:
                     self._process.kill()
             if self._process:
                 self._process.wait()
+            if self._kind == USER:
+                separate_user.clear_unused()
             self._folder.cleanup()
 
 
@@ -115,7 +123,7 @@ def _spawn(
 ) -> subprocess.Popen[bytes]:
     module = "grader.marking.sandbox.fork_server"
     program = [sys.executable, "-P", "-s", "-m", module, str(child_end.fileno())]
-    sandboxed = order["sandboxed"]
+    sandboxed = order["kind"] == BUBBLEWRAP
     # A judge and a student's process share a core: with equal addresses its branch predictions hold in both.
     with linux.same_addresses():
         return subprocess.Popen(

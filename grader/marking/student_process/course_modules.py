@@ -24,8 +24,6 @@ SERVED = (
     "grader.companions.parameter_start",
     "grader.companions.test_runner",
 )
-# Their nodes hold right functions, or answers: they start no program here.
-WITH_JUDGE = ("grader.companions.workshop", "grader.companions.parcel_database")
 
 
 def keep_only(packages: Sequence[str]) -> None:
@@ -91,7 +89,7 @@ def _is_closed(name: str) -> bool:
 
 
 def _empty_exercises() -> None:
-    """Take checks, runs and right definitions of all exercises away; `packages.see` needs packages' runs."""
+    """Take checks, runs and right definitions of all exercises away; `see` needs the runs of packages."""
     for exercise in exercises().values():
         exercise.checks.clear()
         if not exercise.package:
@@ -101,8 +99,10 @@ def _empty_exercises() -> None:
 
 
 def _replace_companions(package: ModuleType) -> None:
+    """Leave out those whose nodes hold right functions, or answers: their module says `WITH_JUDGE = True`."""
     for name, value in list(vars(package).items()):
-        if getattr(value, "__module__", "") in WITH_JUDGE:
+        home = sys.modules.get(getattr(value, "__module__", ""))
+        if getattr(home, "WITH_JUDGE", False):
             setattr(package, name, no_companions)
 
 
@@ -127,12 +127,17 @@ def _named_in(module: ModuleType, closed: dict[str, ModuleType]) -> Iterator[Mod
     for value in vars(module).values():
         for each in _parts(value):
             name = each.__name__ if isinstance(each, ModuleType) else getattr(each, "__module__", None)
-            if isinstance(name, str) and name in closed and not name.startswith(f"{EXERCISES}."):
+            if isinstance(name, str) and name in closed and not _is_exercise(name):
                 yield closed[name]
 
 
+def _is_exercise(name: str) -> bool:
+    """Return whether a module has an exercise and its checks: those of its companions are one level below."""
+    return name.startswith(f"{EXERCISES}.") and name.count(".") == EXERCISES.count(".") + 2
+
+
 def _parts(value: Any) -> list[Any]:
-    """What is in a container, the function of a partial one, or the value itself."""
+    """Return what is in a container, the function of a partial one, or the value itself."""
     if isinstance(value, functools.partial):
         return [value.func]
     if isinstance(value, dict):

@@ -11,7 +11,7 @@ SCRATCH_BYTES = 1 << 30  # a larger file system is the machine's own, of process
 
 
 def used_up() -> str:
-    """What is nearly used up: "memory", "threads", "open files" or "disk space"; "" for nothing."""
+    """Return what is nearly used up: "memory", "threads", "open files" or "disk space"; "" for nothing."""
     try:
         return next((name for name, share in _shares() if share > SHARE), "")
     except (MemoryError, OSError) as error:  # not even this can be read any more

@@ -135,7 +135,7 @@ class Stream(io.TextIOBase):
         return self._descriptor
 
     def write(self, text: str) -> int:
-        """As `TextIO.write`."""
+        """Work like `TextIO.write`."""
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
         self._sender.write(self._channel, text)

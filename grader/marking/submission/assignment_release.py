@@ -43,7 +43,7 @@ def load_release(folder: Path) -> Release:
 
 
 def is_hidden(path: str) -> bool:
-    """Whether the path, or a folder in it, begins with a dot."""
+    """Return whether the path, or a folder in it, begins with a dot."""
     return any(part.startswith(".") for part in PurePosixPath(path).parts)
 
 

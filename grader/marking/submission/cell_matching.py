@@ -18,7 +18,7 @@ Pairs = list[tuple[int, int]]  # index in the release, index in the submission
 
 @dataclass
 class Match:
-    """Which submitted cells are which of a release's, all by index.
+    """A mapping from a release's cells to submitted ones, all by index.
 
     copies: for each cell of the release its submitted copies, in order; empty where it is missing.
     by_id, by_text: cells of the release whose name was lost. swapped: those that had another cell's name.

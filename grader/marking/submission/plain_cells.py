@@ -97,12 +97,12 @@ def cell_of(raw: Mapping[str, Any], repairs: list[str] | None = None, number: in
 
 
 def is_answer(cell: Cell) -> bool:
-    """Whether students write in this cell of a release, and are marked for it."""
+    """Return whether students write in this cell of a release, and are marked for it."""
     return cell.settings.get("solution") is True
 
 
 def is_test(cell: Cell) -> bool:
-    """Whether this cell of a release is a test that gives points."""
+    """Return whether this cell of a release is a test that gives points."""
     return cell.settings.get("grade") is True and not is_answer(cell)
 
 

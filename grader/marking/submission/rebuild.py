@@ -209,7 +209,7 @@ def _untouched(cell: Cell, starter: Cell) -> bool:
 
 
 def _as_released(cell: Cell) -> bool:
-    """Whether the cell is as in some version of the assignment, by nbgrader's checksum in it."""
+    """Return whether the cell is as in some version of the assignment, by nbgrader's checksum in it."""
     kinds = (str(cell.settings.get(key)) for key in ("grade", "solution", "locked"))
     points = cell.settings.get("points")
     known = isinstance(points, (int, float)) and abs(points) < MAX_POINTS

@@ -81,7 +81,7 @@ def _path(name: str, submitted: SubmittedFiles, release: Release) -> str:
 
 
 def _has_cells(submitted: SubmittedFiles, path: str, notebook: NotebookNode) -> bool:
-    """Whether the file has at least half of the named cells of `notebook`."""
+    """Return whether the file has at least half of the named cells of `notebook`."""
     try:
         cells = _read(submitted, path).cells
     except Unusable:

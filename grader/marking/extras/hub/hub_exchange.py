@@ -13,7 +13,7 @@ from grader.marking.extras.hub.inbox_import import import_submissions
 
 
 class Inboxes(Configurable):
-    """Where the students' inboxes are."""
+    """The folders of the students' inboxes."""
 
     folder = Unicode("", help="The folder with one folder for each student.").tag(config=True)
 

@@ -21,7 +21,7 @@ _M = TypeVar("_M", bound=Model)
 
 @dataclass(frozen=True)
 class ServerSettings(Model):
-    """Where the hub is, and when it stops a server that is not used."""
+    """The hub's location, and when it stops a server that is not used."""
 
     folder: str = "/srv/ros2-hub"
     address: str = "127.0.0.1"
@@ -34,7 +34,7 @@ class ServerSettings(Model):
 
 @dataclass(frozen=True)
 class UserLimits(Model):
-    """What one user can use at most."""
+    """Limits on what one user can use."""
 
     memory_gb: Annotated[float, within(0.5, 1000, "GB")] = 2.0
     processes: Annotated[int, within(50, 100_000)] = 300

@@ -25,6 +25,10 @@ NAME = re.compile(r"(?P<student>[^+/]+)\+(?P<assignment>[\w.-]+)\+(?P<time>[^+/]
 TOLERANCE = timedelta(minutes=2)  # nbgrader takes the time first and copies the files then
 MAX_FILES, MAX_BYTES = 1000, 128 * 10**6
 MAX_WAITING = 100  # submissions in one inbox
+INCOMPLETE = (
+    f"It is incomplete: {SECRET}, which nbgrader writes last, is missing or empty. Either it is still "
+    "being copied, or the disk was full when the student submitted."
+)
 
 Owner = Callable[[str], int]
 
@@ -118,6 +122,8 @@ def _copy_files(folder: Path, user: int, target: Path) -> datetime:
     if odd := [entry for entry in entries if entry.kind not in (FILE, FOLDER)]:
         raise Unusable(f"{quote(odd[0].path)} is {odd[0].kind}; hand in files and folders only.")
     files = [entry for entry in entries if entry.kind == FILE]
+    if not any(entry.path == SECRET and entry.size for entry in files):
+        raise Unusable(INCOMPLETE)
     size = sum(entry.size for entry in files)
     if len(files) > MAX_FILES or size > MAX_BYTES:
         raise Unusable(

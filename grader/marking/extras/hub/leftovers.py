@@ -51,7 +51,7 @@ def _end(descriptor: int) -> None:
 
 
 def is_process_of(process: int, name: str) -> bool:
-    """Whether the process belongs to this user; numbers of ended ones are used again."""
+    """Return whether the process belongs to this user; numbers of ended ones are used again."""
     return _owner(process) == pwd.getpwnam(name).pw_uid
 
 

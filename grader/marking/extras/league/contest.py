@@ -43,7 +43,7 @@ class Contest:
 
 @dataclass(frozen=True)
 class Game:
-    """What one capstone did in one warehouse.
+    """One capstone's results in one warehouse.
 
     delivered: orders that count: those delivered before a person was touched. orders: all orders. people,
     contacts: how often it touched a person, and anything else. waited: the time of all orders that count (s).

@@ -15,7 +15,7 @@ class ContestProcedure:
     contest: Contest
 
     def run(self, marking: Any) -> None:
-        """As Procedure."""
+        """Work like Procedure."""
         from grader.marking.extras.league.contest_run import run_contest  # in the judge's process only
 
         run_contest(marking, self.contest)

@@ -43,12 +43,12 @@ class LeagueRow:
 
     @property
     def people(self) -> int:
-        """How often it touched a person."""
+        """Return how often it touched a person."""
         return sum(game.people for game in self.games)
 
     @property
     def contacts(self) -> int:
-        """How often it touched anything else."""
+        """Return how often it touched anything else."""
         return sum(game.contacts for game in self.games)
 
     @property

@@ -24,7 +24,7 @@ WITH_SHEET = "give the platform's grading sheet with --moodle or --canvas"
 
 @dataclass
 class CollectReport:
-    """What was collected: the students, and sentences on what the instructor should know or do."""
+    """A report on a collection: the students, and sentences on what the instructor should know or do."""
 
     new: list[str] = field(default_factory=list)
     replaced: list[str] = field(default_factory=list)

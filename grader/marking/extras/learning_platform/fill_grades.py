@@ -18,7 +18,7 @@ class PlatformMark:
 
 @dataclass
 class FillReport:
-    """What was filled in, and a sentence for each thing that was not. students: by record of the file."""
+    """A report on what was filled in, and a sentence for each thing that was not. students: by record."""
 
     filled: int = 0
     students: dict[int, str] = field(default_factory=dict)

@@ -102,7 +102,7 @@ def _names(one: PlatformUser | KnownStudent) -> set[str]:
 
 
 def _agree(person: PlatformUser, student: KnownStudent) -> bool:
-    """Whether nothing says that two with the same name are different people."""
+    """Return whether nothing says that two with the same name are different people."""
     mails = {_key(each) for each in person.ids if "@" in each}
     own = {_key(each) for each in (student.mail, student.student) if "@" in each}
     return (not mails or not own or bool(mails & own)) and not (

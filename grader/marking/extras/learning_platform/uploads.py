@@ -16,7 +16,7 @@ WORKSPACE = "ws"  # the only folder that assignments have
 
 @dataclass
 class PersonalUpload:
-    """What one person uploaded: the files by path in the submission, and what is known of the newest."""
+    """One person's upload: the files by path in the submission, and what is known of the newest."""
 
     person: PlatformUser
     files: dict[str, tuple[NamedUpload, ArchiveEntry]] = field(default_factory=dict)

@@ -31,7 +31,7 @@ class Names:
 
 
 def submission_times(sheet: GradeSheet) -> dict[str, datetime]:
-    """When people handed in (UTC), by the platform's number; {} if the worksheet doesn't say it.
+    """Return when people handed in (UTC), by the platform's number; {} if the worksheet doesn't say it.
 
     Moodle has these times before those of the grades. Raises CourseError.
     """

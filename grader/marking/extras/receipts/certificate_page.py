@@ -39,7 +39,7 @@ def check_page(page: str, receipts: Sequence[MarkReceipt]) -> None:
 
 
 def sentence(receipt: MarkReceipt) -> str:
-    """What a receipt says."""
+    """Return what a receipt says."""
     who = f"{receipt.name} ({receipt.student}) has {receipt.score} points in {receipt.assignment}"
     return f"{who}, says {receipt.issuer} on {format_day(receipt.issued)}"
 

@@ -57,7 +57,7 @@ def sign(statement: dict[str, Any], signer: Any) -> str:
 
 
 def open_signed(text: str, key: Any) -> Any:
-    """What was signed with this key. Raises NotConfirmed."""
+    """Return what was signed with this key. Raises NotConfirmed."""
     from securesystemslib.dsse import Envelope
     from securesystemslib.exceptions import FormatError, VerificationError
 

@@ -1,13 +1,15 @@
 """The receipts of a class: of all marks on which gradebook and journal agree."""
 import hmac
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import date
 
 import nbformat
+from nbformat import NotebookNode
 
 from grader.exercise import Exercise
 from grader.marking import secret
+from grader.marking.errors import CourseError
 from grader.marking.extras.receipts.receipt import MarkReceipt, ReceiptCell, seal_of
 from grader.marking.gradebook.book import Book, GradebookMark
 from grader.marking.gradebook.course import Course
@@ -35,23 +37,37 @@ def make_receipts(course: Course, issuer: str, students: Collection[str], reveal
     with Book(course) as book:
         marks = [mark for mark in book.marks() if not students or mark.student in students]
     made, key = ClassReceipts(), secret.read(course.root)
-    exercises = {name: dict(_exercises(course, name)) for name in {mark.assignment for mark in marks}}
+    names = {mark.assignment for mark in marks}
+    exercises = {name: dict(_exercises(_notebooks(course, name))) for name in names}
     for mark in sorted(marks, key=lambda mark: (mark.student, mark.assignment)):
         entry = Journal(course.journal(mark.assignment)).last(mark.student)
         doubt = _doubt(mark, entry, key)
         if entry is None or doubt:
             made.doubts.append(f"{mark.student}: {mark.assignment} {doubt}")
             continue
-        receipt = _receipt(mark, entry, issuer)
-        if key:
-            own = secret_of_student(key, mark.student)
-            nonce = hmac.new(own.encode(), f"receipt of {mark.assignment}".encode(), "sha256").hexdigest()
-            tests = exercises[mark.assignment]
-            seeds = {name: [seed for _, seed in each.runs(own)] for name, each in tests.items()}
-            opened = {"nonce": nonce, "seeds": seeds} if reveal else {}
-            receipt = replace(receipt, seal=seal_of(nonce, seeds), **opened)
+        receipt = sealed(_receipt(mark, entry, issuer), key, exercises[mark.assignment], reveal)
         made.receipts.setdefault(mark.student, []).append(receipt)
     return made
+
+
+def receipt_of_one(
+    mark: GradebookMark, entry: JournalEntry, issuer: str, key: str, notebooks: Iterable[NotebookNode]
+) -> MarkReceipt:
+    """The receipt of a mark that no gradebook has. notebooks: the release's. Raises CourseError."""
+    if mark.needs_look:
+        raise CourseError("there is no receipt of a mark that still needs a look")
+    return sealed(_receipt(mark, entry, issuer), key, dict(_exercises(notebooks)), reveal=False)
+
+
+def sealed(receipt: MarkReceipt, key: str, tests: Mapping[str, Exercise], reveal: bool) -> MarkReceipt:
+    """The receipt with the seal of its private seeds, if the class has a secret; with them if `reveal`."""
+    if not key:
+        return receipt
+    own = secret_of_student(key, receipt.student)
+    nonce = hmac.new(own.encode(), f"receipt of {receipt.assignment}".encode(), "sha256").hexdigest()
+    seeds = {name: [seed for _, seed in each.runs(own)] for name, each in tests.items()}
+    opened = {"nonce": nonce, "seeds": seeds} if reveal else {}
+    return replace(receipt, seal=seal_of(nonce, seeds), **opened)
 
 
 def _receipt(mark: GradebookMark, entry: JournalEntry, issuer: str) -> MarkReceipt:
@@ -75,7 +91,7 @@ def _receipt(mark: GradebookMark, entry: JournalEntry, issuer: str) -> MarkRecei
 
 
 def _doubt(mark: GradebookMark, entry: JournalEntry | None, key: str) -> str:
-    """Why a mark has no receipt, or ""."""
+    """Return why a mark has no receipt, or ""."""
     if entry is None:
         return f"was not marked by `python -m grader mark {mark.assignment}`"
     again = f"mark {mark.assignment} again"
@@ -89,9 +105,15 @@ def _doubt(mark: GradebookMark, entry: JournalEntry | None, key: str) -> str:
     return "still needs a look in the formgrader" if mark.needs_look else ""
 
 
-def _exercises(course: Course, assignment: str) -> Iterator[tuple[str, Exercise]]:
-    """The exercises of an assignment by name."""
+def _notebooks(course: Course, assignment: str) -> Iterator[NotebookNode]:
+    """The released notebooks of an assignment."""
     for path in sorted(course.release(assignment).glob("*.ipynb")):
-        for name in filter(None, exercise_names(nbformat.read(path, 4)).values()):
+        yield nbformat.read(path, 4)
+
+
+def _exercises(notebooks: Iterable[NotebookNode]) -> Iterator[tuple[str, Exercise]]:
+    """The exercises of an assignment's notebooks by name."""
+    for notebook in notebooks:
+        for name in filter(None, exercise_names(notebook).values()):
             found = find_exercise(name)
             yield found.name, found

@@ -53,7 +53,7 @@ class MarkReceipt:
         return f"{format_points(self.points)} of {format_points(self.most)}"
 
     def statement(self) -> dict[str, Any]:
-        """As an in-toto statement."""
+        """Return it as an in-toto statement."""
         about = asdict(self)
         digests = about.pop("digests")
         subject = [{"name": name, "digest": {"sha256": digests[name]}} for name in sorted(digests)]

@@ -1,0 +1,163 @@
+"""A lifecycle node: it reads its parameter when it is configured, and drives only while it is active."""
+
+import itertools
+from typing import NamedTuple
+
+from grader.checks import Missed, course_calls, hinting, named, serves
+from grader.checks.services import is_refusal, is_success
+from grader.exercise import Exercise, Scenario
+from grader.exercises.safety.motor.motor_manager import CHANGE, SET, MotorManager, StrictManager
+from grader.geometry.near import is_near
+from grader.responses import Window, speeds
+from grader.responses.speeds import STANDING
+from grader.worlds.trusting import trusting
+from sim.evidence import Call, Recording, Seconds
+
+__all__ = ["MotorManager", "motor"]
+
+OUT = "/cmd_vel"
+SOON, BRAKING = 0.25, 0.4  # s: until the first command, and until the robot has stopped
+FEWEST, MOST = 7.0, 12.0  # Hz, in as short a time
+CONFIGURE = 'In on_configure: self.speed = self.get_parameter("speed").value. And drive publishes self.speed.'
+LATE = ("Read the speed in on_configure, and nowhere else: it holds until the node is configured again, "
+        "whatever the parameter is set to in the meantime.")
+SUCCESS = "End the transition's method with `return TransitionCallbackReturn.SUCCESS`."
+SUPER = ("Create the timer in on_activate. And end that with `return super().on_activate(state)`: without "
+         "it, a lifecycle publisher publishes nothing.")
+ACTIVE = "Create the timer in on_activate, and destroy it in on_deactivate."
+ZERO = ("Silence is not a stop: publish an empty Twist, before super().on_deactivate(state). After that, a "
+        "lifecycle publisher publishes nothing.")
+SHUTDOWN = ("A shutdown can come while the node is active, without a deactivate before it: on_shutdown, "
+            "too, has to destroy the timer and stop the robot.")
+AGAIN = ("It succeeded in the first round. Each method has to undo what its counterpart did: then the next "
+         "round begins like the first one.")
+PERIOD = "self.timer = self.create_timer(0.1, self.drive) calls it ten times a second."
+UNDO = ("A timer is left over from before. What on_activate creates, on_deactivate destroys, and what "
+        "on_configure creates, on_cleanup destroys: self.destroy_timer(self.timer).")
+REFUSE = ("In on_configure, before anything is created: if the speed isn't above 0 and at most 0.5, return "
+          "TransitionCallbackReturn.FAILURE.")
+
+motor = Exercise("motor", "A motor that waits", scenarios=[
+    Scenario(trusting("yard"), 11, 1, [MotorManager], name="rounds"),
+    Scenario(trusting("yard"), 11, 4, [MotorManager], name="rounds"),
+    Scenario(trusting("yard"), 7, 1, [StrictManager], name="refused"),
+])
+
+
+class Activation(NamedTuple):
+    """A time in which the node is active, from the response to the request that ends it."""
+
+    begin: Seconds
+    end: Seconds
+    speed: float  # m/s, as it was configured
+
+
+@motor.check(1)
+def is_managed(run: Recording) -> None:
+    """The node /motor is a lifecycle node."""
+    named(run, "/motor")
+    with hinting("Every LifecycleNode offers it: class Motor(LifecycleNode), not class Motor(Node)."):
+        serves(run, CHANGE, "lifecycle_msgs/srv/ChangeState")
+
+
+@motor.check(3, after=is_managed, only="rounds")
+def drives_while_active(run: Recording) -> None:
+    """While it is active, and only then, it publishes the speed on /cmd_vel."""
+    for call in course_calls(run, CHANGE, at_least=2)[:2]:
+        _is_accepted(call)
+    active = _activations(run)
+    changes = [moment for it in course_calls(run, SET) if (moment := it.requested or 0.0) > active[0].begin]
+    _publishes_speed(run, active[0]._replace(end=changes[0] if changes else active[0].end), CONFIGURE)
+    for row in run.messages(OUT):
+        inside = any(Window(one.begin - SOON, one.end).contains(row.stamp) for one in active)
+        if not inside and not is_near(row.message.linear.x, 0.0, 1e-9):
+            expected, saw = f"no speed on {OUT} while /motor isn't active", f"{row.message.linear.x:.3g} m/s"
+            hint = SHUTDOWN if row.stamp > active[-1].end else ACTIVE
+            raise Missed(expected, f"{saw} at {row.stamp:.3g} s", hint, picture="topics", unsafe=True)
+
+
+@motor.check(2, after=drives_while_active, only="rounds")
+def reads_the_speed_in_time(run: Recording) -> None:
+    """The speed is that of the parameter when the node was configured, until it is configured again."""
+    for one in _activations(run):
+        _publishes_speed(run, one, LATE)
+
+
+@motor.check(2, after=drives_while_active, only="rounds")
+def stops(run: Recording) -> None:
+    """When it is deactivated or shut down, it stops the robot with a zero command."""
+    active = _activations(run)
+    for one, then in zip(active, [*(it.begin for it in active[1:]), run.ended.stamp], strict=True):
+        for speed in speeds(Window(one.end + BRAKING, then).rows(run.path)):
+            if speed.linear > STANDING:
+                expected = f"the robot standing still {BRAKING:g} s after the request at {one.end:.3g} s"
+                saw = f"{speed.linear:.2f} m/s at {speed.stamp:.3g} s"
+                raise Missed(expected, saw, ZERO, picture="topics", unsafe=True)
+
+
+@motor.check(2, after=drives_while_active, only="rounds")
+def cleans_up(run: Recording) -> None:
+    """All transitions succeed in the second round, too, and each time it publishes ten times a second."""
+    for call in course_calls(run, CHANGE, at_least=9):
+        _is_accepted(call, hint=AGAIN)
+    for one in _activations(run):
+        sent = Window(one.begin, one.end).rows(run.messages(OUT))
+        rate = len(sent) / (one.end - one.begin)
+        if not FEWEST <= rate <= MOST:
+            expected = f"10 Hz on {OUT} in the activation at {one.begin:.3g} s"
+            again = one.begin > _activations(run)[0].begin
+            raise Missed(expected, f"{rate:.2g} Hz", UNDO if again else PERIOD)
+
+
+@motor.check(2, after=is_managed, only="refused")
+def refuses_a_wrong_speed(run: Recording) -> None:
+    """With a speed that isn't above 0 and at most 0.5 m/s it can't be configured, with another one it can."""
+    for call in course_calls(run, CHANGE, at_least=4)[:4]:
+        speed = _speed(run, call)
+        if _label(call) != "configure" or 0.0 < speed <= 0.5:
+            _is_accepted(call, f", with the speed {speed:.2g} m/s")
+        elif not is_refusal(call):
+            expected = f"success=False for {_text(call)}, with the speed {speed:.2g} m/s"
+            raise Missed(expected, "no answer" if call.response is None else "success=True", REFUSE)
+
+
+def _label(call: Call) -> str:
+    return str(call.request.transition.label)
+
+
+def _speed(run: Recording, call: Call) -> float:
+    """Return the speed to which the parameter was set before a call."""
+    earlier = [it for it in course_calls(run, SET) if (it.requested or 0.0) < (call.requested or 0.0)]
+    return float(earlier[-1].request.parameters[0].value.double_value)
+
+
+def _text(call: Call) -> str:
+    return f"{_label(call)} at {call.requested:.3g} s"
+
+
+def _is_accepted(call: Call, why: str = "", hint: str = SUCCESS) -> None:
+    if not is_success(call):
+        saw = "no answer" if call.response is None else "success=False"
+        raise Missed(f"success=True for {_text(call)}{why}", saw, hint)
+
+
+def _activations(run: Recording) -> list[Activation]:
+    """Return the times in which it is active: from each activate that succeeds to what comes next."""
+    calls = course_calls(run, CHANGE, at_least=9)
+    configured, found = 0.0, []
+    for call, following in itertools.pairwise(calls):
+        if _label(call) == "configure":
+            configured = _speed(run, call)
+        if _label(call) == "activate" and is_success(call):
+            begin = call.answered if call.answered is not None else call.requested
+            found.append(Activation(begin or 0.0, following.requested or 0.0, configured))
+    return found
+
+
+def _publishes_speed(run: Recording, one: Activation, guess: str) -> None:
+    sent = Window(one.begin + SOON, one.end).before(one.end).rows(run.messages(OUT))
+    wrong = [row for row in sent if not is_near(row.message.linear.x, one.speed, 1e-3)]
+    if wrong or not sent:
+        saw = f"{wrong[0].message.linear.x:.3g} m/s at {wrong[0].stamp:.3g} s" if wrong else "no command"
+        expected = f"{one.speed:.3g} m/s on {OUT}, active from {one.begin:.3g} to {one.end:.3g} s"
+        raise Missed(expected, saw, guess if wrong else SUPER)

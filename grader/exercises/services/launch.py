@@ -1,0 +1,25 @@
+"""The node of the exercise before, started with another speed."""
+
+from grader.checks import Missed
+from grader.companions.service_clients import Reader
+from grader.exercise import Exercise
+from grader.exercises.services.parameters import LAUNCHED, begins_with, declares_speed
+from sim.evidence import Recording
+
+launch = Exercise("launch", "The same node, with another speed", world="yard", seconds=4, companions=[Reader])
+
+
+@launch.check(1)
+def launches_the_cruiser(run: Recording) -> float:
+    """The node /cruiser runs, and has its parameter `speed`."""
+    if all(map(run.is_course_node, run.graph.nodes)):
+        hint = "launch returns what should be started: return Process(...), with Cruiser in it."
+        raise Missed("a node called /cruiser", "no node was started", hint)
+    return declares_speed(run)
+
+
+@launch.check(2, after=launches_the_cruiser,
+              guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).')
+def is_launched_with_a_speed(run: Recording, speed: float) -> None:
+    """It is started with a speed of 0.3, and drives at that speed."""
+    begins_with(run, speed, LAUNCHED)

@@ -1,0 +1,1 @@
+"""python -m grader likeness: which submissions of an assignment are alike, for a person to look at."""
