@@ -1,4 +1,4 @@
-"""The goal of lesson 2: a boss that publishes words, and a walker that turns words into velocities."""
+"""The goals of lesson 2: a boss that publishes words, and walkers that turn words into velocities."""
 
 import math
 
@@ -24,7 +24,7 @@ class Boss(Node):
 
 
 class Walker(Node):
-    """Drives as the last word says and stops 2 m from its start."""
+    """Drives as the last word says."""
 
     def __init__(self):
         super().__init__("walker")
@@ -32,7 +32,6 @@ class Walker(Node):
         self.speed, self.turn = 0.0, 0.0
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_subscription(String, "/robot/command", self.obey, 10)
-        self.create_subscription(Odometry, "/odom", self.look, 10)
         self.create_timer(0.1, self.drive)
 
     def obey(self, msg):
@@ -40,14 +39,22 @@ class Walker(Node):
         self.get_logger().info(msg.data)
         self.speed, self.turn = self.velocities[msg.data]
 
-    def look(self, msg):
-        """Stop when odometry says that the robot is far enough away."""
-        position = msg.pose.pose.position
-        if math.hypot(position.x, position.y) > 2.0:
-            self.speed = 0.0
-
     def drive(self):
         """Publish the velocities, ten times a second: a robot stops when commands stop arriving."""
         msg = Twist()
         msg.linear.x, msg.angular.z = self.speed, self.turn
         self.publisher.publish(msg)
+
+
+class CarefulWalker(Walker):
+    """A walker that stops 2 m from its start."""
+
+    def __init__(self):
+        super().__init__()
+        self.create_subscription(Odometry, "/odom", self.look, 10)
+
+    def look(self, msg):
+        """Stop when odometry says that the robot is far enough away."""
+        position = msg.pose.pose.position
+        if math.hypot(position.x, position.y) > 2.0:
+            self.speed = 0.0

@@ -24,7 +24,7 @@ class Circler(Node):
         """Refuse a radius that is too small."""
         for parameter in parameters:
             if parameter.name == "radius" and parameter.value < 0.2:
-                return SetParametersResult(successful=False, reason="a radius is 0.2 m or more")
+                return SetParametersResult(successful=False, reason="the radius must be 0.2 m or more")
         return SetParametersResult(successful=True)
 
     def power(self, request, response):

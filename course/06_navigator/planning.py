@@ -49,7 +49,7 @@ def neighbors(cells, cell):
             yield (x, y), math.hypot(right, up)
 
 
-def way_back(came_from, goal):
+def reconstruct_path(came_from, goal):
     """The cells from the start to the goal; none if the search never reached it."""
     cells = [goal] if goal in came_from else []
     while cells and came_from[cells[-1]] is not None:
@@ -68,7 +68,7 @@ def search(cells, start, goal):
             if cost[here] + step < cost.get(there, math.inf):
                 cost[there], came_from[there] = cost[here] + step, here
                 heapq.heappush(queue, (cost[there] + math.dist(there, goal), there))
-    return way_back(came_from, goal)
+    return reconstruct_path(came_from, goal)
 
 
 def distance_and_bearing(x, y, yaw, goal):

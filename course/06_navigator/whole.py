@@ -154,7 +154,7 @@ class Navigator(Node):
 
     def feedback(self, path):
         """How far it still has to go."""
-        feedback = NavigateToPose.Feedback(current_pose=stamped(*self.pose))
+        feedback = NavigateToPose.Feedback(current_pose=pose_stamped(*self.pose))
         feedback.distance_remaining = len(rest_of(path, self.pose)) * self.grid.info.resolution  # nearly
         feedback.estimated_time_remaining.sec = int(feedback.distance_remaining / SPEED)
         return feedback
@@ -170,7 +170,7 @@ class Navigator(Node):
 # -- messages --
 
 
-def stamped(x, y, yaw=0.0):
+def pose_stamped(x, y, yaw=0.0):
     """A pose in the frame map."""
     pose = PoseStamped()
     pose.header.frame_id = "map"
@@ -181,7 +181,7 @@ def stamped(x, y, yaw=0.0):
 
 def path_message(points):
     """A path in the frame map."""
-    path = Path(poses=[stamped(*point) for point in points])
+    path = Path(poses=[pose_stamped(*point) for point in points])
     path.header.frame_id = "map"
     return path
 

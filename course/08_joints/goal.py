@@ -54,9 +54,9 @@ class Artist(Node):
         """Send the goal as soon as the arm's server is there."""
         if self.client.server_is_ready():
             self.timer.cancel()
-            self.client.send_goal_async(self.goal).add_done_callback(self.on_answer)
+            self.client.send_goal_async(self.goal).add_done_callback(self.on_response)
 
-    def on_answer(self, future):
+    def on_response(self, future):
         """Ask for the result, if the arm goes."""
         if future.result().accepted:
             future.result().get_result_async().add_done_callback(self.on_result)

@@ -17,7 +17,7 @@ def cart(**figures):
     return World.from_data(world)
 
 
-def said_of(recording):
+def outcome_of(recording):
     """How wide the pole swung; or when it fell."""
     states = recording.messages("/joint_states")
     angles = [(state.stamp, abs(state.message.position[1])) for state in states]

@@ -7,7 +7,7 @@ import numpy as np
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # late joiners receive it, too
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # late joiners receive it, too
 CELL = 0.1  # m; the width of a cell in which paths are searched
 CLEAR = 0.2  # m from the middle of the robot to obstacles
 
@@ -17,7 +17,7 @@ def seconds(stamp):
     return stamp.sec + stamp.nanosec / 1e9
 
 
-def flat(pose):
+def pose_2d(pose):
     """Return a Pose as x (m), y (m) and yaw (rad)."""
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
@@ -30,14 +30,14 @@ def posed(x, y, yaw=0.0):
     return pose
 
 
-def stamped(stamp, x, y, yaw=0.0):
+def pose_stamped(stamp, x, y, yaw=0.0):
     """Return a PoseStamped in map."""
     message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
 
-def listed(stamp, points):
+def pose_array(stamp, points):
     """Return a PoseArray in map from points (x, y)."""
     message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"
@@ -52,7 +52,7 @@ def points_of(scan, pose):
     return np.column_stack((pose[0] + ranges[rays] * np.cos(angles), pose[1] + ranges[rays] * np.sin(angles)))
 
 
-def far_from(points, others, reach):
+def away_from(points, others, reach):
     """Return the points that are farther than `reach` (m) from all the others."""
     return [point for point in points if all(math.dist(point, other) > reach for other in others)]
 
@@ -61,7 +61,7 @@ def thinned(points, gap=0.1):
     """Return some of the points, such that each is near (m) to one of these."""
     kept = []
     for point in points:
-        kept += far_from([point], kept, gap)
+        kept += away_from([point], kept, gap)
     return kept
 
 

@@ -6,7 +6,17 @@ import signal
 import time
 
 import rclpy
-from floor import KEPT, Floor, far_from, flat, listed, points_of, seconds, stamped, steer
+from floor import (
+    LATCHED,
+    Floor,
+    away_from,
+    points_of,
+    pose_2d,
+    pose_array,
+    pose_stamped,
+    seconds,
+    steer,
+)
 from geometry_msgs.msg import PoseArray, PoseStamped, Twist
 from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
@@ -26,7 +36,7 @@ class Perception(Node):
         self.buffer = Buffer()
         self.listener = TransformListener(self.buffer, self)
         self.floor, self.seen, self.walked, self.scans = None, [], [], 0
-        self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
         self.create_subscription(LaserScan, "scan", self.on_scan, qos_profile_sensor_data)
         self.pose_pub = self.create_publisher(PoseStamped, "robot_pose", 10)
         self.people_pub = self.create_publisher(PoseArray, "people", 10)
@@ -54,13 +64,13 @@ class Perception(Node):
         now = seconds(stamp)
         before = [points for when, points in self.seen if now - when > 0.4]
         self.seen = [*((when, points) for when, points in self.seen if now - when < 1.0), (now, strange)]
-        moved = far_from(strange, before[0] if before else [], 0.25)
+        moved = away_from(strange, before[0] if before else [], 0.25)
         later = [(when, point) for when, point in self.walked if now - when < 5.0]
-        self.walked = [(when, point) for when, point in later if far_from([point], moved, 0.2)]
+        self.walked = [(when, point) for when, point in later if away_from([point], moved, 0.2)]
         self.walked += [(now, point) for point in moved]
-        self.obstacles_pub.publish(listed(stamp, strange))
-        self.people_pub.publish(listed(stamp, [point for _, point in self.walked]))
-        self.pose_pub.publish(stamped(stamp, *pose))
+        self.obstacles_pub.publish(pose_array(stamp, strange))
+        self.people_pub.publish(pose_array(stamp, [point for _, point in self.walked]))
+        self.pose_pub.publish(pose_stamped(stamp, *pose))
 
 
 def choose(state, share, orders, now):
@@ -83,9 +93,9 @@ class Decision(Node):
     def __init__(self):
         super().__init__("decision")
         self.orders, self.share, self.dock, self.state = {}, 1.0, None, "rest"
-        self.create_subscription(Order, "/orders", self.on_order, KEPT)
+        self.create_subscription(Order, "/orders", self.on_order, LATCHED)
         self.create_subscription(BatteryState, "battery_state", self.on_battery, 10)
-        self.create_subscription(PoseStamped, "dock_pose", self.on_dock, KEPT)
+        self.create_subscription(PoseStamped, "dock_pose", self.on_dock, LATCHED)
         self.goal_pub = self.create_publisher(PoseStamped, "goal_pose", 10)
         self.state_pub = self.create_publisher(String, "state", 10)
         self.create_timer(0.5, self.decide)
@@ -123,7 +133,7 @@ class Control(Node):
         super().__init__("control")
         self.floor = self.goal = self.pose = None
         self.people, self.obstacles, self.received, self.way = [], [], -math.inf, []
-        self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
         self.create_subscription(PoseArray, "people", self.on_people, 10)
         self.create_subscription(PoseArray, "obstacles", self.on_obstacles, 10)
         self.create_subscription(PoseStamped, "goal_pose", self.on_goal, 10)
@@ -138,21 +148,21 @@ class Control(Node):
 
     def on_people(self, people):
         """Store the points where people are walking."""
-        self.people = [flat(pose)[:2] for pose in people.poses]
+        self.people = [pose_2d(pose)[:2] for pose in people.poses]
 
     def on_obstacles(self, obstacles):
         """Store the obstacles that aren't on the map."""
-        self.obstacles = [flat(pose)[:2] for pose in obstacles.poses]
+        self.obstacles = [pose_2d(pose)[:2] for pose in obstacles.poses]
 
     def on_goal(self, goal):
         """Store the goal; a new one needs a new plan."""
-        place = flat(goal.pose)[:2]
+        place = pose_2d(goal.pose)[:2]
         if place != self.goal:
             self.goal, self.way = place, []
 
     def on_pose(self, message):
         """Store the robot's pose and the time of its scan."""
-        self.pose, self.received = flat(message.pose), seconds(message.header.stamp)
+        self.pose, self.received = pose_2d(message.pose), seconds(message.header.stamp)
 
     def plan(self):
         """Find a new path around the current obstacles, once a second."""

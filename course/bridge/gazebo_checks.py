@@ -8,6 +8,8 @@ import yaml
 NAMES = ("ros_topic_name", "gz_topic_name", "topic_name")
 TYPES = ("ros_type_name", "gz_type_name")
 OPTIONS = ("direction", "subscriber_queue", "publisher_queue", "lazy")
+TRAJECTORIES = "joint_trajectory_controller/JointTrajectoryController"
+INTERFACES = ("position", "velocity", "acceleration", "effort")
 DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ")
 # Those that this robot needs, of the table in the README of ros_gz_bridge.
 PAIRS = {
@@ -82,16 +84,30 @@ def controller_problems(controllers: str, urdf: str) -> list[str]:
     settings, problems = yaml.safe_load(controllers), []
     joints = {joint.get("name") for joint in ElementTree.fromstring(urdf).findall("joint")}
     manager = settings.get("controller_manager", {}).get("ros__parameters", {})
-    listed = {name for name, value in manager.items() if isinstance(value, dict) and "type" in value}
+    listed = {name: value for name, value in manager.items() if isinstance(value, dict)}
+    types = {name: value["type"] for name, value in listed.items() if "type" in value}
     for name in settings:
-        if name != "controller_manager" and name not in listed:
+        if name != "controller_manager" and name not in types:
             problems.append(f"{name} is not listed in controller_manager with a type")
         parameters = settings[name].get("ros__parameters")
         if parameters is None:
             problems.append(f"{name}: expected ros__parameters, with two underscores")
             continue
         wanted = [joint for side in ("left", "right") for joint in parameters.get(f"{side}_wheel_names", [])]
+        wanted += parameters.get("joints", [])
         problems += [f"{name}: the robot has no joint {joint}" for joint in wanted if joint not in joints]
+        if types.get(name) == TRAJECTORIES:
+            problems += trajectory_problems(name, parameters)
+    return problems
+
+
+def trajectory_problems(name: str, parameters: dict) -> list[str]:
+    """A JointTrajectoryController's parameters: which joints, and what to command and read of each."""
+    missing = [key for key in ("joints", "command_interfaces", "state_interfaces") if not parameters.get(key)]
+    problems = [f"{name}: {key} is missing, or empty" for key in missing]
+    for key in ("command_interfaces", "state_interfaces"):
+        unknown = [value for value in parameters.get(key, []) if value not in INTERFACES]
+        problems += [f"{name}: {key} has {value}; expected {', '.join(INTERFACES)}" for value in unknown]
     return problems
 
 

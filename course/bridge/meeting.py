@@ -2,6 +2,9 @@
 
     python meeting.py talk          publishes on /chatter until Ctrl-C
     python meeting.py listen 4      waits for a message, for 4 s at most
+    python meeting.py look 4        prints the topics that it discovers, as soon as /chatter is one of them
+    python meeting.py daemon        answers other programs that ask for topics, until Ctrl-C
+    python meeting.py ask           prints the topics that the daemon of its domain names
 """
 
 import os
@@ -106,5 +109,46 @@ def _listen(seconds: float) -> None:
     print(f"received {received[0].data}" if received else f"nothing in {seconds:g} s")
 
 
+def _look(seconds: float) -> None:
+    import rclpy
+
+    rclpy.init()
+    node, begin, topics = rclpy.create_node("looker"), time.monotonic(), {}
+    while "/chatter" not in topics and time.monotonic() < begin + seconds:
+        time.sleep(0.1)
+        topics = dict(node.get_topic_names_and_types())
+    print(*sorted(topics))
+
+
+def _daemon() -> None:
+    from xmlrpc.server import SimpleXMLRPCServer
+
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("daemon")
+    server = SimpleXMLRPCServer(_address_of_daemon(), logRequests=False)
+    server.register_function(lambda: sorted(dict(node.get_topic_names_and_types())), "topics")
+    print(READY, flush=True)
+    with suppress(KeyboardInterrupt):
+        server.serve_forever()
+
+
+def _ask() -> None:
+    from xmlrpc.client import ServerProxy
+
+    host, port = _address_of_daemon()
+    print(*ServerProxy(f"http://{host}:{port}").topics())
+
+
+def _address_of_daemon() -> tuple[str, int]:
+    """One for each domain, as with the official daemon, whose ports begin at 11511."""
+    return "127.0.0.1", 31511 + int(os.environ["ROS_DOMAIN_ID"])
+
+
+PROGRAMS = {"talk": _talk, "listen": _listen, "look": _look, "daemon": _daemon, "ask": _ask}
+
 if __name__ == "__main__":
-    _talk() if sys.argv[1] == "talk" else _listen(float(sys.argv[2]))
+    # From --ros-args on, the words are ROS's.
+    words = sys.argv[2 : sys.argv.index("--ros-args") if "--ros-args" in sys.argv else None]
+    PROGRAMS[sys.argv[1]](*map(float, words))
