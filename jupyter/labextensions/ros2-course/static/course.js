@@ -30,9 +30,11 @@ export async function plugins(share) {
       startPage(lab, app, tracker, restorer);
       const comms = new Map();
       const sidebar = new RobotSidebar(lab, app, tracker);
-      const commOf = (node) => comms.get(tracker.find((panel) => panel.node.contains(node)));
+      // An output may also have a view of its own, outside its notebook.
+      const commOf = (node, model) => comms.get(tracker.find((panel) => panel.node.contains(node)))
+        ?? [...comms.values()].find((comm) => comm.robotPanel.plays(model));
       registry.addFactory({
-        safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node) => commOf(node)?.robotPanel),
+        safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node, model) => commOf(node, model)?.robotPanel),
       }, -100); // before the widget in the same output, which is for other pages
       registry.addFactory({
         safe: true, mimeTypes: ["image/png"], createRenderer: (options) => imageRenderer(lab, options),

@@ -1,5 +1,7 @@
 // The robot of the active notebook, in JupyterLab's right sidebar: the live view, and the replay after the run.
 
+import { announce } from "./success.js";
+
 export const ROBOT = "application/vnd.ros2-course.robot+json";
 const WIDGET = "application/vnd.jupyter.widget-view+json";
 const ID = "ros2-course-robot";
@@ -128,6 +130,7 @@ export class RobotPanel {
     if (this.isEmpty()) return;
     this.shown = {};
     this.notice = RESTARTED;
+    announce(RESTARTED); // a region that comes with its text is often not announced
     this.fill();
     this.watchers.forEach((update) => update());
   }
@@ -166,12 +169,12 @@ export class RobotPanel {
   }
 }
 
-/** The output of the cell instead of the picture; robotOf returns the robot of the notebook of a node. */
+/** The output of the cell instead of the picture; robotOf returns the robot of the notebook of a node and a live view. */
 export function robotRenderer(lab, robotOf) {
   const view = new lab.Widget();
   view.addClass("ros2-course-beside");
   const button = Object.assign(document.createElement("button"), { textContent: "Show the robot", className: "jp-Button" });
-  button.addEventListener("click", () => robotOf(view.node)?.reveal());
+  button.addEventListener("click", () => robotOf(view.node, model)?.reveal());
   let model, robot;
   const update = () => {
     if (robot?.plays(model)) view.node.replaceChildren("The robot plays in the panel “Robot” on the right. ", button);
@@ -179,7 +182,7 @@ export function robotRenderer(lab, robotOf) {
   };
   view.renderModel = async (mime) => { model = mime.data[ROBOT]?.model; update(); };
   const attach = () => {
-    const found = robotOf(view.node);
+    const found = robotOf(view.node, model);
     if (found && found !== robot) { robot = found; robot.watchers.add(update); }
     update();
   };

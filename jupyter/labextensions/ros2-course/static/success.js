@@ -8,7 +8,8 @@ const CLASS = "ros2-course-success";
 const OUTCOME = '<div class="ros2-outcome"';
 let region; // one for the page: screen readers announce what changes in a region that they know
 
-function announce(text) {
+/** Let screen readers say a text. */
+export function announce(text) {
   region ??= document.body.appendChild(Object.assign(document.createElement("div"), { className: "ros2-course-announcement", role: "status" }));
   if (region.textContent !== text) region.textContent = text;
 }

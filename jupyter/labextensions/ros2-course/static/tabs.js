@@ -2,15 +2,16 @@
 
 import { OPEN_START } from "./start.js";
 
-const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)_(\w+)\/(\w+)\.ipynb$/;
+// 11b_launching is another assignment of lesson 11.
+const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)([a-z]?)_(\w+)\/(\w+)\.ipynb$/;
 const PAGE = /^(?:.*\/)?(course\/bridge)\/(\d\d)_(\w+)\.ipynb$/; // after the lessons
 
 export function tabName(path) {
   const [, , page, about] = PAGE.exec(path) ?? [];
   if (page) return `B${Number(page)} ${subjectOf(about)}`;
-  const [, folder, number, topic, file] = FILE.exec(path) ?? [];
+  const [, folder, number, letter, topic, file] = FILE.exec(path) ?? [];
   if (!number) return "";
-  return `${Number(number)} ${subjectOf(topic)}: ${folder === "course" ? file : "exercises"}`;
+  return `${Number(number)}${letter} ${subjectOf(topic)}: ${folder === "course" ? file : "exercises"}`;
 }
 
 const subjectOf = (name) => name[0].toUpperCase() + name.slice(1).replaceAll("_", " ");
@@ -27,7 +28,7 @@ export function renameTab(panel) {
   panel.title.changed.connect(name); // JupyterLab sets the title to the file's name, initially and after a rename
 }
 
-/** The next notebook: the lesson's other one, its exercises, then the next lesson or page; undefined after the last. */
+/** The next notebook: the lesson's other one, its assignments, then the next lesson or page; undefined after the last. */
 export async function nextNotebook(contents, path) {
   const [, bridge] = PAGE.exec(path) ?? [];
   if (bridge) {
@@ -35,8 +36,9 @@ export async function nextNotebook(contents, path) {
     const pages = content.map((each) => each.path).filter((each) => PAGE.test(each)).sort();
     return pages[pages.indexOf(path) + 1];
   }
-  const [, folder, number, topic, file] = FILE.exec(path) ?? [];
+  const [, folder, number, letter, topic, file] = FILE.exec(path) ?? [];
   if (!number) return undefined;
+  const own = `${number}${letter}_${topic}`;
   const notebooks = async (folder) => {
     const { content } = await contents.get(folder).catch(() => ({ content: [] }));
     const names = content.filter(({ type }) => type === "notebook").map(({ name }) => name);
@@ -44,14 +46,18 @@ export async function nextNotebook(contents, path) {
     return [...first, ...names.filter((name) => name !== "lesson.ipynb").sort()].map((name) => `${folder}/${name}`);
   };
   if (folder === "course") {
-    const own = (await notebooks(`course/${number}_${topic}`)).filter((each) => !each.endsWith("-new.ipynb"));
-    const later = own.slice(own.findIndex((each) => each.endsWith(`/${file}.ipynb`)) + 1);
-    const [next] = [...later, ...(await notebooks(`exercises/${number}_${topic}`))];
+    const both = (await notebooks(`course/${own}`)).filter((each) => !each.endsWith("-new.ipynb"));
+    const later = both.slice(both.findIndex((each) => each.endsWith(`/${file}.ipynb`)) + 1);
+    const [next] = [...later, ...(await notebooks(`exercises/${own}`))];
     if (next) return next;
   }
-  const { content } = await contents.get("course");
-  const later = content.filter(({ type, name }) => type === "directory" && /^\d\d_/.test(name) && name.slice(0, 2) > number);
-  const following = later.map((each) => each.path).sort()[0];
+  const folders = async (parent, isNext) => {
+    const { content } = await contents.get(parent);
+    const found = content.filter(({ type, name }) => type === "directory" && /^\d\d[a-z]?_/.test(name) && isNext(name));
+    return found.map((each) => each.path).sort();
+  };
+  const [other] = folder === "exercises" ? await folders(folder, (name) => name.startsWith(number) && name > own) : [];
+  const [following] = other ? [other] : await folders("course", (name) => name.slice(0, 2) > number);
   return following && (await notebooks(following))[0];
 }
 

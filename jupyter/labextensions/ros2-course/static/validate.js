@@ -155,6 +155,11 @@ export const short = (points) => String(Math.round(points * 100) / 100);
 
 function row(kind, texts) {
   const line = document.createElement("tr");
-  for (const text of texts) line.append(Object.assign(document.createElement(kind), { textContent: text }));
+  for (const text of texts) {
+    const cell = document.createElement(kind);
+    // Text between backticks is code.
+    cell.append(...text.split(/`([^`]+)`/).map((part, index) => (index % 2 ? Object.assign(document.createElement("code"), { textContent: part }) : part)));
+    line.append(cell);
+  }
   return line;
 }

@@ -1,0 +1,1 @@
+"""The command ros2-course; in an installed wheel also what students get beside Python's packages."""
