@@ -14,7 +14,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 RECORD = "tests/soak.txt"
 FORTNIGHT = datetime.timedelta(days=14)
-MARK = "pytest.mark." + "soak"
+# What a file of soak tests contains: the mark, or the class of an assignment, whose tests have it.
+SIGNS = "pytest.mark." + "soak", "(Assignment" + ")"
 
 Entry = tuple[datetime.date, float]  # the day, and the minutes that the tests took together
 
@@ -38,7 +39,8 @@ def add_to_record(root: Path, entries: dict[str, Entry]) -> None:
 
 def overdue(root: Path, today: datetime.date) -> list[str]:
     """Return a sentence for each file with soak tests that have not passed in a fortnight."""
-    command = ["git", "grep", "--untracked", "-lF", MARK, "--", "tests/*.py"]
+    signs = [word for sign in SIGNS for word in ("-e", sign)]
+    command = ["git", "grep", "--untracked", "-lF", *signs, "--", "tests/test_*.py", "tests/*/test_*.py"]
     found = subprocess.run(command, cwd=root, capture_output=True, text=True).stdout.split()
     record = read_record(root)
     return [

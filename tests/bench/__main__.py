@@ -13,19 +13,17 @@ PARTS = (
     "scenario",
     "startup",
     "world",
-    "machines",
     "transforms",
     "repeats",
     "orders",
     "digests",
     "grading",
-    "sandbox",
     "marking",
     "pace",
     "view",
 )
-# peers and hub install what they need; navigator and capstone take minutes
-ON_REQUEST = ("peers", "navigator", "capstone", "hub")
+# hub installs what it needs; navigator and capstone take minutes
+ON_REQUEST = ("navigator", "capstone", "hub")
 
 
 def machine() -> str:

@@ -34,16 +34,20 @@ KERNEL_READY = """async () => {
 }"""
 OPEN = """async path => {
     await window.jupyterapp.restored;
-    await window.jupyterapp.commands.execute('docmanager:open', {path});
+    const panel = await window.jupyterapp.commands.execute('docmanager:open', {path});
+    panel.context.saveState.connect((_, state) => { panel.isSaving = state === 'started'; });
 }"""
 # Without its result: some give a widget, which has too many parts to be sent here.
 COMMAND = """async ([name, given]) => {
     await window.jupyterapp.commands.execute(name, given);
 }"""
 LOADED_AGAIN = "performance.getEntriesByType('navigation')[0].type === 'reload'"
-# Without a question whether to save: a notebook that was run is changed.
-CLOSE_ALL = """() => {
-    for (const widget of [...window.jupyterapp.shell.widgets('main')]) {
+# Without a question whether to save: a notebook that was run is changed. One that is being saved is awaited:
+# otherwise JupyterLab shows "File Save Error" over the next test's.
+CLOSE_ALL = """async () => {
+    const shown = [...window.jupyterapp.shell.widgets('main')];
+    while (shown.some(widget => widget.isSaving)) await new Promise(done => setTimeout(done, 20));
+    for (const widget of shown) {
         if (widget.context) widget.context.model.dirty = false;
         if (!widget.isDisposed) widget.close();
     }
@@ -257,6 +261,15 @@ class Lab:
         finally:
             self.command("application:toggle-left-area")
             self.page.set_viewport_size(before)
+            self._use_theme("JupyterLab Light")
+
+    @contextmanager
+    def dark(self) -> Iterator[None]:
+        """Show JupyterLab in its dark theme for a while."""
+        self._use_theme("JupyterLab Dark")
+        try:
+            yield
+        finally:
             self._use_theme("JupyterLab Light")
 
     def _use_theme(self, name: str) -> None:

@@ -263,7 +263,7 @@ def test_a_path_shows_the_robot_at_the_cursor_and_names_the_failure(page, rammed
     drawn, played = (Picture(page.locator(name)) for name in (".ros2-path", ".ros2-view:has(.scrub)"))
     played.canvas.wait_for()
     assert drawn.root.locator(".failure").inner_text() == rammed.failure
-    entries = drawn.root.locator(".legend span:not(.time)").all_inner_texts()
+    entries = drawn.root.locator(".legend span > span:not(.time)").all_inner_texts()
     assert entries == ["— path", "● start", "★ goal", "✕ contact"]
     end = drawn.pixels()
     played.scrub(0.25)

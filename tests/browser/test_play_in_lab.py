@@ -310,6 +310,49 @@ def test_a_closed_panel_and_a_page_that_is_loaded_again_find_the_robot(playing):
     assert playing.ask("player.recording.ended.reason") == "running"
 
 
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_layers_are_switched_on_and_off_below_the_picture(playing):
+    root = live(playing).root
+    frames = root.get_by_role("button", name="/tf")
+    assert frames.get_attribute("aria-pressed") == "false"
+    red, green = [201, 42, 42], [43, 138, 62]  # of the axes, which nothing else in a room has
+    assert not has_color(live(playing), red)
+    frames.click()
+    live(playing).wait_until("root => root.querySelector('.layer[aria-pressed=true]')")
+    until(lambda: has_color(live(playing), red) and has_color(live(playing), green), "the axes of a frame")
+    live(playing).screenshot("play-frames")
+    frames.click()
+    until(lambda: not has_color(live(playing), red), "a picture without frames")
+
+
+def has_color(picture: Picture, color: list[int]) -> bool:
+    """Whether more than a few pixels of a picture have a color."""
+    return picture.canvas.evaluate(
+        """(canvas, [red, green, blue]) => {
+            const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            let count = 0;
+            for (let i = 0; i < data.length; i += 4) {
+                if (data[i] === red && data[i + 1] === green && data[i + 2] === blue) count++;
+            }
+            return count > 15;
+        }""",
+        color,
+    )
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_a_chosen_topic_opens_below_the_picture_which_stays_in_sight(playing):
+    playing.page.set_viewport_size({"width": 1440, "height": 900})
+    root = live(playing).root
+    root.locator("button.topic", has_text="/odom").click()
+    message = root.locator(".looked pre", has_text="child_frame_id: base_link")
+    message.wait_for()
+    expect(message).to_be_in_viewport(ratio=0.3, timeout=PATIENCE * 1000)
+    expect(root.locator(".looked canvas")).to_be_in_viewport(ratio=1, timeout=PATIENCE * 1000)
+    expect(live(playing).canvas).to_be_in_viewport(ratio=1, timeout=PATIENCE * 1000)
+    playing.screenshot("play-topic-below-picture")
+
+
 SHORT = "player = play(Circle, world='room', seconds=3, speed=4)"
 
 

@@ -57,7 +57,7 @@ def check_time_link(picture: Picture) -> None:
     """A time in the text of the page moves the replay there, with the values and messages of that moment."""
     picture.page.get_by_role("link", name="3.5 s").click()
     assert picture.time() == 3.5
-    picture.root.get_by_role("button", name="/odom").click()
+    picture.root.locator("button.topic", has_text="/odom").click()
     assert picture.root.locator(".looked pre").inner_text().startswith("# at 3.")
     assert picture.value("v") == "0.40 m/s"
     assert picture.page.locator("a[aria-current='time']").count() == 1

@@ -5,6 +5,7 @@ import pytest
 from tests.browser.lab import SHOWN, write_notebook
 from tests.browser.pictures import Picture
 from tests.browser.test_play_in_lab import CIRCLE, IMPORTS, eventually, live
+from tests.browser.test_success_in_lab import ANNOUNCED
 from tests.patience import until
 
 pytestmark = pytest.mark.browser
@@ -97,6 +98,21 @@ def test_the_values_of_a_replay_are_next_to_their_labels(playing):
         assert term["y"] + term["height"] <= value["y"] + 1 and term["x"] == pytest.approx(value["x"], abs=1)
 
 
+def test_a_toolbar_that_is_too_full_covers_no_cell(playing):
+    below = """() => {
+        const toolbar = window.notebook().toolbar.node, { left, bottom } = toolbar.getBoundingClientRect();
+        const wide = document.createElement("div"), late = document.createElement("div");
+        wide.style.cssText = "flex: 0 0 2000px";
+        late.style.cssText = "flex: 0 0 100%; height: 30px";
+        toolbar.append(wide, late);
+        const found = toolbar.contains(document.elementFromPoint(left + 60, bottom + 10));
+        wide.remove();
+        late.remove();
+        return found;
+    }"""
+    assert playing.page.evaluate(below) is False
+
+
 def test_it_is_dark_in_a_dark_theme(playing):
     playing._use_theme("JupyterLab Dark")
     try:
@@ -129,8 +145,18 @@ def test_a_restarted_kernel_has_no_robot_and_the_cell_does_not_claim_one(playing
     playing.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
     notice = "The kernel was restarted, and the robot is gone. Run the cells again, and it drives here."
     playing.page.locator(".ros2-course-notice", has_text=notice).wait_for()
+    assert playing.page.evaluate(ANNOUNCED) == notice
     playing.page.get_by_text("A robot played here. Run the cell to let it play again.").wait_for()
     assert playing.page.get_by_role("button", name="Show the robot").count() == 0
+
+
+def test_a_second_view_of_the_output_says_that_the_robot_plays(playing):
+    text = playing.page.get_by_text("The robot plays in the panel")
+    text.wait_for()
+    playing.page.evaluate("window.notebook().content.activeCellIndex = 1")
+    playing.command("notebook:create-output-view")
+    text.nth(1).wait_for()
+    assert playing.page.get_by_text("A robot played here.").count() == 0
 
 
 def test_saved_output_does_not_claim_that_the_robot_plays(playing):

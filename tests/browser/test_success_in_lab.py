@@ -55,6 +55,7 @@ def titled(students_folder):
     yield write
     for path in written:
         path.unlink()
+        path.with_name("predictions.json").unlink(missing_ok=True)
 
 
 def line(lab):
@@ -88,11 +89,12 @@ def test_the_star_is_filled_and_the_time_announced_live_and_in_the_replay(studen
         lab.screenshot("star-replay")
 
 
-def test_a_finished_lesson_says_so_below_its_last_cell_and_leads_on(titled, open_lab):
+def test_a_finished_lesson_says_so_below_its_last_cell_and_leads_on(titled, students_folder, open_lab):
     name = titled("course", "# Lesson 1: nodes", *LESSON)
     with open_lab(name) as lab:
         lab.run_cell(1)
         lab.cell(1).locator("button", has_text="no").click()
+        until((students_folder / name).with_name("predictions.json").exists, "the saved prediction")
         assert line(lab).count() == 0
         lab.run_cell(2)
         line(lab).wait_for()

@@ -2,11 +2,11 @@
 
 import pytest
 
-from grader.companions.watchman_package import write_watchman
+from grader.exercises.packages.session.watchman_package import write_watchman
 from sim.ros2.typed_lines import lines_of
 from sim.ros2.typed_session import CTRL_C
+from tests.exercises.packages.session.students import RIGHT
 from tests.sim.standalone.programs import free_domain
-from tests.students.packages.session import RIGHT
 from tests.tooling.test_packages_on_a_robot import write_workspace
 
 pytestmark = [pytest.mark.browser, pytest.mark.soak]  # builds a package, and drives in real time

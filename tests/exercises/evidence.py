@@ -59,7 +59,7 @@ class Evidence:
     @classmethod
     def of_nodes(cls, topic: str) -> Evidence:
         """The recordings of the students' nodes of an assignment."""
-        own = f"grader/exercises/{topic}", f"tests/students/{topic}", "tests/students/workspaces.py"
+        own = f"grader/exercises/{topic}", f"tests/exercises/{topic}", "tests/students/workspaces.py"
         own += "tests/students/teams.py", "tests/bench/delivery"  # robots of several programs
         return cls(f"nodes-{topic}", *COURSE, *own)
 

@@ -1,7 +1,7 @@
 """What the score tables of all assignments share: pages of scores, and notebooks that were run.
 
-An exercise has a module of nodes, tests/students/<assignment>/<exercise>.py, and a page, tests/exercises/
-<assignment>/<exercise>.txt, that says what each of the nodes earns and the red lines it gets, word by word.
+An exercise has a folder, tests/exercises/<assignment>/<exercise>/, with a module of nodes, students.py, and a
+page, page.txt, that says what each of the nodes earns and the red lines it gets, word by word.
 Only the numbers of code lines read N: they change with every edit of the module. And what Python itself says
 is said as by Python 3.12.
 
@@ -37,6 +37,7 @@ REWORDED = {
     "min() arg is an empty sequence": "min() iterable argument is empty",
     "float division by zero": "division by zero",
 }
+PAGE = "page.txt"
 NOT_STARTED = "This exercise is not started yet"
 
 
@@ -64,7 +65,7 @@ def _without_numbers(saw: str) -> str:
 
 def students(assignment: str, exercise: str) -> dict[str, Any]:
     """Name to node, for every node of an exercise's module but those in its PARTS."""
-    module = importlib.import_module(f"tests.students.{assignment}.{exercise}")
+    module = importlib.import_module(f"tests.exercises.{assignment}.{exercise}.students")
     found = {
         name: item
         for name, item in vars(module).items()
@@ -76,7 +77,7 @@ def students(assignment: str, exercise: str) -> dict[str, Any]:
 @functools.cache
 def page(assignment: str, exercise: str) -> dict[str, str]:
     """Name to what the exercise's page says of the node: points, and the red lines."""
-    text = _file(assignment, exercise).read_text(encoding="utf-8")
+    text = (folder_of(assignment, exercise) / PAGE).read_text(encoding="utf-8")
     return {block.split(":")[0]: block for block in text.strip().split("\n\n")}
 
 
@@ -86,12 +87,18 @@ def write_page(assignment: str, exercise: str) -> None:
     with kept_builds():
         nodes = students(assignment, exercise)
         blocks = [shown(name, judge.grade(*programs_of(node))) for name, node in nodes.items()]
-    _file(assignment, exercise).write_text("\n\n".join(blocks) + "\n", encoding="utf-8")
+    (folder_of(assignment, exercise) / PAGE).write_text("\n\n".join(blocks) + "\n", encoding="utf-8")
     page.cache_clear()
 
 
-def _file(assignment: str, exercise: str) -> Path:
-    return Path(__file__).with_name(assignment) / f"{exercise}.txt"
+def folder_of(assignment: str, exercise: str) -> Path:
+    """The folder with what proves an exercise: its students' nodes, its page, its rules."""
+    return Path(__file__).with_name(assignment) / exercise
+
+
+def with_pages() -> list[tuple[str, str]]:
+    """The assignment and the name of each exercise that has a page."""
+    return sorted(path.parts[-3:-1] for path in Path(__file__).parent.glob(f"*/*/{PAGE}"))
 
 
 def shown(name: str, score: Score) -> str:
@@ -200,5 +207,5 @@ GRADES = re.compile(r"(?:\w+\.)?(\w+)\.grade\((.*)\)")
 if __name__ == "__main__":
     for wanted in sys.argv[1:]:
         assignment, _, exercise = wanted.partition("/")
-        for module in (ROOT / "tests" / "students" / assignment).glob(f"{exercise or '[!_]*'}.py"):
-            write_page(assignment, module.stem)
+        for nodes in folder_of(assignment, exercise or "*").parent.glob(f"{exercise or '*'}/students.py"):
+            write_page(assignment, nodes.parent.name)

@@ -17,6 +17,7 @@ from tests.exercises.test_control import TestControl as Control
 from tests.exercises.test_delivery import TestDelivery as Delivery
 from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_joints import TestJoints as Joints
+from tests.exercises.test_launching import TestLaunching as Launching
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
 from tests.exercises.test_packages import TestPackages as Packages
@@ -24,11 +25,12 @@ from tests.exercises.test_safety import TestSafety as Safety
 from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_silence import TestSilence as Silence
+from tests.exercises.test_testing import TestTesting as Testing
 from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence),
-    *(Joints, Frames, Control, Packages, Safety, Delivery),
+    *(Joints, Frames, Control, Packages, Launching, Testing, Safety, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),
@@ -120,18 +122,22 @@ def test_who_publishes_or_asks_everything_or_listens_once_gets_no_more_than_chan
 
 
 WITHOUT_A_FUNCTION = {"limiter": 6}  # its workflow is no function, and tests that do nothing pass
-RIGHT_PACKAGES = {name: students("packages", name)[Packages.right(name)[0]] for name in Packages.names}
+RIGHT_PACKAGES = {
+    (each, name): students(each.topic(), name)[each.right(name)[0]]
+    for each in (Packages, Launching, Testing)
+    for name in each.names
+}
 HOLLOW = [
-    pytest.param(name, workspace, id=name)
-    for name, right in RIGHT_PACKAGES.items()
+    pytest.param(assignment, name, workspace, id=name)
+    for (assignment, name), right in RIGHT_PACKAGES.items()
     if (workspace := hollow(right)).files != right.files
 ]
 
 
 @pytest.mark.soak  # each is built
-@pytest.mark.parametrize(("name", "workspace"), HOLLOW)
-def test_a_package_whose_functions_do_nothing_earns_next_to_nothing(name, workspace):
-    exercise = Packages.judge(name)
+@pytest.mark.parametrize(("assignment", "name", "workspace"), HOLLOW)
+def test_a_package_whose_functions_do_nothing_earns_next_to_nothing(assignment, name, workspace):
+    exercise = assignment.judge(name)
     score = earned(exercise, "", workspace)
     assert score <= WITHOUT_A_FUNCTION.get(name, NOTHING * exercise.points), score.text
 

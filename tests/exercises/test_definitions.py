@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.exercises import packages
-from tests.students.packages import crates
+from grader.exercises import launching
+from tests.exercises.launching.crates import students as crates
 from tests.students.workspaces import Workspace
 
 TARGET = "crate_interfaces__rosidl_generator_type_description"  # what comes first, before any compiler
@@ -16,7 +16,7 @@ FIELD = "Write a field's name with lower-case letters, digits and single undersc
 
 def test_a_look_prints_the_definitions_as_they_are_read(capsys):
     definitions = crates.changed(crates.RIGHT, crates.LIFT, "bool lifted", "bool Lifted")
-    assert packages.see(packages.crates, Workspace(__name__, definitions)).seconds == 0
+    assert launching.see(launching.crates, Workspace(__name__, definitions)).seconds == 0
     assert capsys.readouterr().out == f"""\
 crate_interfaces/action/Lift
     line 4: bool Lifted

@@ -39,7 +39,7 @@ def _is_unread(node: ast.AST) -> bool:
 
 def shown_somewhere() -> str:
     """Every score page, and every test of the grader, with one space between words."""
-    files = [*(ROOT / "tests/exercises").rglob("*.txt"), *(ROOT / "tests/exercises").glob("test_*.py")]
+    files = [*(ROOT / "tests/exercises").rglob("*.txt"), *(ROOT / "tests/exercises").rglob("test_*.py")]
     files += (ROOT / "tests/grader").rglob("*.py")
     return " ".join(" ".join(file.read_text(encoding="utf-8").split()) for file in files)
 
@@ -63,7 +63,7 @@ def test_every_hint_has_a_wrong_node_that_gets_it(topic):
     shown = shown_somewhere()
     hidden = {
         f"{path.relative_to(ROOT)}: {part}"
-        for path in sorted((EXERCISES / topic).glob("*.py"))
+        for path in sorted([*EXERCISES.glob(f"{topic}/*.py"), *EXERCISES.glob(f"{topic}/*/__init__.py")])
         for text in sentences(path.read_text(encoding="utf-8"))
         for part in unseen(text, shown)
     }

@@ -5,9 +5,9 @@ import math
 
 import pytest
 
-from grader.companions.figure import figure
 from grader.companions.joint_targets import CRUISE, LESSON, NAMES, paths, poses, stations
-from grader.companions.lift import plan
+from grader.exercises.joints.careful.lift import plan
+from grader.exercises.joints.draw.figure import figure
 from grader.worlds.arms import EDGE, arm_of, desk_of, joint_of, side_of
 
 SEEDS = range(100)

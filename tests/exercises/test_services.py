@@ -4,7 +4,7 @@ from grader.exercises import services
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import executed, students
 from tests.exercises.seeds import fallen_short
-from tests.students.services._client import main as client_main
+from tests.exercises.services.client import main as client_main
 
 
 class TestServices(Assignment):

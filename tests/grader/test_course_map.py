@@ -95,7 +95,21 @@ def test_the_pages_of_the_bridge_come_after_the_lessons_in_one_part(course):
         "B2 in Gazebo (page), ✔ done",
     ]
     assert [part.name for part in found.chapters[0].parts] == ["01_nodes", "02_topics", "bridge"]
-    assert '<h3><a href="course/bridge/02_gazebo.ipynb">B2 In Gazebo</a></h3>' in found._repr_html_()
+    card = found._repr_html_().split('<li class="card')[-1]
+    assert '<h3><a href="course/bridge/02_gazebo.ipynb">B2 In Gazebo</a></h3>' in card
+    assert "Before:" not in card, "each page needs something else"
+
+
+def test_a_card_offers_the_pages_that_can_be_read_after_its_lesson(course):
+    write(course / "course/bridge/02_gazebo.ipynb", "Bridge 2: in <Gazebo>", code())
+    listed = {"title": "See", "about": "", "parts": ["02_topics"], "pages": {"02_topics": ["02_gazebo", "no_page"]}}
+    (course / "course/chapters.json").write_text(json.dumps([listed]))
+    link = '<a href="course/bridge/02_gazebo.ipynb">B2 In &lt;Gazebo&gt;</a> <span class="time">about an hour</span>'
+    page = course_map(course)._repr_html_()
+    assert page.count(f'<div class="pages">If you like, afterwards:<ul><li>{link}</li></ul></div>') == 1
+    for broken in ('{"pages": 1}', '[{"pages": [1]}]', "[1]"):
+        (course / "course/chapters.json").write_text(broken)
+        assert 'class="pages"' not in course_map(course)._repr_html_()
 
 
 def test_a_lesson_with_two_notebooks_is_one_card_with_both(course):
@@ -113,6 +127,21 @@ def test_a_lesson_with_two_notebooks_is_one_card_with_both(course):
     assert titles == [("lesson.ipynb", "2a Topics"), ("driving.ipynb", "2b Topics that drive")]
     write(course / "course/02_topics/lesson.ipynb", "Lesson 2a: topics", code())
     assert course_map(course).chapters[0].parts[1].picture == "<svg>first</svg>"
+
+
+def test_several_assignments_of_a_lesson_are_in_its_card_each_with_its_date(course):
+    write(course / "exercises/01b_lamps/lamps.ipynb", "Assignment 1b: lamps", code(metadata=POINTS))
+    write(course / "exercises/01_nodes/nodes.ipynb", "Assignment 1a: nodes", code(metadata=POINTS))
+    (course / "course/due.json").write_text('{"01b_lamps": "2026-12-01T17:00:00"}')
+    found = course_map(course)
+    first, second, third, *_ = repr(found).splitlines()
+    assert (first, second) == ("1 nodes (lesson), ✔ done", "1a nodes (exercises), 0 of 8 points")
+    assert third.startswith("1b lamps (exercises), 0 of 8 points, due Tue 1 December 2026")
+    assert [part.name for part in found.chapters[0].parts] == ["01_nodes", "02_topics"]
+    card = found._repr_html_().split('<li class="card')[1]
+    links = re.findall(r'<div class="exercises"><a href="exercises/(.*?)">(.*?)</a>', card)
+    assert links == [("01_nodes/nodes.ipynb", "Exercises 1a"), ("01b_lamps/lamps.ipynb", "Exercises 1b")]
+    assert card.count("due Tue 1 December 2026") == 1
 
 
 def test_a_new_version_of_a_changed_notebook_is_reported(course):
@@ -134,8 +163,9 @@ def test_the_picture_of_a_goal_is_an_image_in_which_nothing_can_run(course):
 
 def test_each_lesson_of_the_course_is_in_a_chapter_and_has_a_picture():
     chapters = course_map(ROOT / "course").chapters
-    assert [chapter.title for chapter in chapters] == ["Talk", "Move", "See", "Whole robots", "Other systems"]
+    assert [chapter.title for chapter in chapters] == ["Talk", "See", "Move", "Whole robots", "Other systems"]
     parts = [part for chapter in chapters for part in chapter.parts]
+    assert [part.name for part in parts[:-1]] == sorted(part.name for part in parts[:-1])
     assert [part.name for part in parts if not part.picture.startswith("<svg ")] == []
     assert max(len(part.picture) for part in parts) < 8_000
 
@@ -166,6 +196,7 @@ def test_every_notebook_of_the_course_has_its_time_and_its_prerequisites():
     notebooks = course_map(ROOT / "course").notebooks
     assert [item.path.name for item in notebooks if not item.time] == []
     assert [item.path.parent.name for item in notebooks if not item.needs] == ["00_robot"]
+    assert [item.name for item in notebooks if ("minutes" in item.time) == bool(item.most)] == []
 
 
 def test_the_start_page_links_to_the_glossary_and_to_the_differences_on_a_real_robot():

@@ -59,3 +59,14 @@ def test_a_question_shows_its_answers_and_hides_what_happened(tmp_path):
         "<details><summary>What happened</summary><p><b>b</b> no. You predicted a, in"
         ' <a href="01_nodes/lesson.ipynb">01_nodes</a>.</p></details></details>\n'
     )
+
+
+def test_the_link_leads_to_the_notebook_that_asks_the_question(tmp_path):
+    saved(tmp_path, "bridge", **{"Is 1 < 2, or not?": (3, "a", "b")})
+    source = ["guess = predict(\n", '    "Is 1 < 2, "\n', '    "or not?", a="yes", b="no"\n', ")"]
+    for name, lines in (("01_ros1", ["predict(1)"]), ("02_gazebo", source), ("03_control", ["predict("])):
+        cells = [{"cell_type": "code", "source": lines}]
+        (tmp_path / f"bridge/{name}.ipynb").write_text(json.dumps({"cells": cells}), "utf-8")
+    assert '<a href="bridge/02_gazebo.ipynb">bridge</a>' in review_html(review_questions(tmp_path, TODAY))
+    (tmp_path / "bridge/01_ros1.ipynb").write_text("<<<", "utf-8")
+    assert '<a href="bridge/02_gazebo.ipynb">bridge</a>' in review_html(review_questions(tmp_path, TODAY))

@@ -9,6 +9,7 @@ import zlib
 
 import nh3
 import pytest
+from std_msgs.msg import Float64
 
 from grader import Missed, Score, check
 from grader.checks import Verdict, arrives
@@ -19,7 +20,7 @@ from grader.pictures import missed_moments
 from sim import Recording, World, run
 from sim.evidence import Endpoint
 from sim.view import plot_topics
-from tests.grader.recordings import driven
+from tests.grader.recordings import driven, published
 from tests.students import misfits
 
 
@@ -212,6 +213,13 @@ def test_each_kind_of_picture_is_drawn_once():
     assert strokes._repr_png_() == plot_topics(recording)._repr_png_()
 
 
+def test_a_miss_about_numbers_shows_their_curve():
+    run = published("/heading", [(1.0, Float64(data=1.0)), (2.0, Float64(data=3.0))], seconds=3.0)
+    ((caption, curve),) = Score("gyro", [verdict(1.0, "failed", picture="/heading")], [run]).pictures
+    assert caption == "The numbers on /heading"
+    assert curve.axes[0].lines[0].get_ydata().tolist() == [1.0, 3.0]
+
+
 def test_in_jupyter_each_picture_is_displayed_with_its_caption_as_the_text_for_screen_readers(monkeypatch):
     displayed = []
     monkeypatch.setattr("IPython.display.display", lambda item, metadata: displayed.append((item, metadata)))
@@ -353,12 +361,12 @@ def test_a_moment_of_a_missed_check_is_a_link_where_its_run_has_a_replay():
     key = recording.digest[:12]
     assert f'it moved at <a href="#run-{key}-2.5">2.5 s</a>' in html
     assert f'0 m/s from <a href="#run-{key}-1">1 s</a>' in html
-    assert missed_moments(verdicts, 0) == [(1.5, "It is quiet. a message"), (2.5, "It stands. it moved at 2.5 s")]
+    assert missed_moments(verdicts, 0, recording) == [(1.5, "It is quiet. a message"), (2.5, "It stands. it moved at 2.5 s")]
     ((_, picture),) = score.pictures
-    assert picture.html == recording.replay(moments=missed_moments(verdicts, 0)).html
+    assert picture.html == recording.replay(moments=missed_moments(verdicts, 0, recording)).html
 
 
-def test_a_miss_without_a_moment_has_the_begin_of_the_part_of_the_run_that_was_looked_at():
+def test_a_miss_without_a_moment_has_the_first_motion_in_the_part_of_the_run_that_was_looked_at():
     @check(points=1)
     def waits(run):
         "The robot stands still until it is called."
@@ -375,7 +383,7 @@ def test_a_miss_without_a_moment_has_the_begin_of_the_part_of_the_run_that_was_l
     recording = driven([(0, 0), (1, 0), (2, 0), (3, 0)])
     verdicts = judge([waits, comes], recording)
     assert [verdict.begin for verdict in verdicts] == [1.0, None]
-    assert missed_moments(verdicts, 0) == [(1.0, "The robot stands still until it is called. it moved")]
+    assert missed_moments(verdicts, 0, recording) == [(2.0, "The robot stands still until it is called. it moved")]
 
 
 def test_a_moment_of_a_run_without_a_replay_is_plain_text():

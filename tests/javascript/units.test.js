@@ -3,19 +3,22 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { save } from "../../jupyter/labextensions/ros2-course/static/saving.js";
-import { tabName } from "../../jupyter/labextensions/ros2-course/static/tabs.js";
+import { nextNotebook, tabName } from "../../jupyter/labextensions/ros2-course/static/tabs.js";
 import { load } from "./load.js";
 
 const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"], ["checkWorld", "list", "number", "numbers", "text", "checkGraph"]);
-const { before } = load(["elements"], ["before"]);
+const { before, rounded } = load(["elements"], ["before", "rounded"]);
 const { viewAt } = load(["camera"], ["viewAt"]);
-const { cumulated, unchanged, topicAt, checkRun } = load(
-  ["checks", "elements", "drawing", "layers", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun"],
+const { cumulated, unchanged, topicAt, checkRun, restText } = load(
+  ["checks", "elements", "drawing", "layers", "world_canvas", "replay_run"], ["cumulated", "unchanged", "topicAt", "checkRun", "restText"],
 );
+const { checkLayer, layersAt, checkBelief, beliefsAt, LayerChoice } = load(
+  ["checks", "elements", "layers", "replay_run"], ["checkLayer", "layersAt", "checkBelief", "beliefsAt", "LayerChoice"],
+);
+const { axesOf, ellipseOf } = load(["layer_paint"], ["axesOf", "ellipseOf"]);
 const { isAtGoal } = load(["checks", "world_canvas"], ["isAtGoal"]);
 const { tipPath } = load(["checks", "world_canvas"], ["tipPath"]);
 const { visibleAt } = load(["checks", "elements", "drawing"], ["visibleAt"]);
-const { checkLayer, layersAt } = load(["checks", "elements", "layers"], ["checkLayer", "layersAt"]);
 const { legendOf } = load(["legend"], ["legendOf"]);
 const { timeOf } = load(["cursor"], ["timeOf"]);
 
@@ -51,6 +54,11 @@ test("a graph has boxes of known kinds, and arrows of whole curves", () => {
   assert.throws(() => checkGraph({ ...graph, boxes: [box] }), { message: "a kind of box was expected" });
   const arrow = { gap: 0, rest: false, points: [0, 0, 1, 1], middle: [0, 0] };
   assert.throws(() => checkGraph({ ...graph, arrows: [arrow] }), { message: "a beginning and curves was expected" });
+});
+
+test("a value of a plot has no digits that its range hides", () => {
+  assert.deepEqual([0.00000972, 0.12345, 3.7].map((value) => rounded(value, 4)), [0, 0.123, 3.7]);
+  assert.deepEqual([rounded(0.00000972, 0.00002), rounded(5, 0), rounded(0, 0)], [0.00000972, 5, 0]);
 });
 
 test("the last item that is not later than a stamp is found", () => {
@@ -96,6 +104,19 @@ test("the message of a topic at a time is the stored one before it", () => {
   assert.equal(at(0.5).text, "No message yet.");
   assert.equal(at(1.5).text, "data: 0.5\n# 2 of 5 messages are stored here");
   assert.deepEqual(at(2).curves[0].points, [[1, 0.5], [2, 0.7]]);
+});
+
+test("a replay that ends before its run says until when nothing moved", () => {
+  assert.equal(restText(checkRun({ ...RUN, marks: [[120000, "end", "over", null]], end: 40 })), ", at rest until 120 s");
+  assert.equal(restText(checkRun(RUN)), "");
+});
+
+test("a joint's curve has the messages of its driver", () => {
+  const messages = [{ type: "sensor_msgs/msg/JointState", count: 3, stamps: [1000, 2000, 3000], texts: [["a"], ["b"], ["c"]], curves: [["elbow_joint position", [0.5, null, 0.7]]] }];
+  const run = checkRun({ ...RUN, topics: [["/joint_states", "3", ""]], messages });
+  assert.deepEqual(topicAt(run.topics[0], 3).curves, [{ name: "elbow_joint position", along: "s", points: [[1, 0.5], [3, 0.7]] }]);
+  messages[0].curves[0][1].pop();
+  assert.throws(() => checkRun({ ...RUN, topics: [["/joint_states", "3", ""]], messages }), { message: "a value for each stamp was expected" });
 });
 
 test("the far end of an arm is computed from its last link", () => {
@@ -153,8 +174,21 @@ test("a robot that comes near the goal has reached it, and the replay marks the 
 test("tabs of lessons, exercises and pages of the bridge have names of their own", () => {
   assert.equal(tabName("course/04_actions/driving.ipynb"), "4 Actions: driving");
   assert.equal(tabName("work/exercises/01_nodes/nodes.ipynb"), "1 Nodes: exercises");
+  assert.equal(tabName("exercises/11b_launching/launching.ipynb"), "11b Launching: exercises");
   assert.equal(tabName("course/bridge/05_security.ipynb"), "B5 Security");
   assert.equal(tabName("notes.ipynb"), "");
+});
+
+test("after the notebooks of a lesson come its assignments, and then the next lesson", async () => {
+  const files = ["course/11_packages/lesson", "course/11_packages/launching", "exercises/11_packages/packages",
+    "exercises/11b_launching/launching", "course/12_safety/lesson", "exercises/12_safety/safety"].map((each) => `${each}.ipynb`);
+  const get = async (folder) => {
+    const names = new Set(files.filter((each) => each.startsWith(`${folder}/`)).map((each) => each.slice(folder.length + 1).split("/")[0]));
+    const type = (name) => (name.endsWith(".ipynb") ? "notebook" : "directory");
+    return { content: [...names].map((name) => ({ name, type: type(name), path: `${folder}/${name}` })) };
+  };
+  const following = await Promise.all(files.map((path) => nextNotebook({ get }, path)));
+  assert.deepEqual(following, [...files.slice(1), undefined]);
 });
 
 test("layers are parsed, and each topic shows its newest one", () => {
@@ -164,6 +198,61 @@ test("layers are parsed, and each topic shows its newest one", () => {
   assert.deepEqual(layers[0].data.cells, [0, 0, 0, 100]);
   assert.deepEqual(layersAt(layers, 0.5).map(({ topic }) => topic), ["/map"]);
   assert.deepEqual(layersAt(layers, 2.5).map(({ stamp }) => stamp), [0, 2]);
-  assert.throws(() => checkLayer({ ...grid, kind: "cloud" }), { message: "a kind of layer was expected" });
+  assert.throws(() => checkLayer({ ...grid, kind: "fog" }), { message: "a kind of layer was expected" });
   assert.throws(() => checkLayer({ ...grid, data: { ...grid.data, runs: [[0, 3e5]] } }));
+});
+
+test("a pose between two that were published lies between them, and turns the shorter way", () => {
+  const columns = [[0, 1000], [0, 0], [3100, 83], [0, 0], [0, 0], [40000, 0]];
+  const track = checkBelief({ topic: "/odom", kind: "pose", name: "", stamps: [1000, 1000], columns });
+  const [pose] = beliefsAt([track], 1.5);
+  assert.deepEqual([pose.data[0], pose.data[5]], [0.5, 0.04]);
+  assert.ok(Math.abs(pose.data[2] - 3.1415) < 1e-6);
+  assert.deepEqual(beliefsAt([track], 0.5), []);
+  assert.equal(beliefsAt([track], 9)[0].data[0], 1);
+  assert.throws(() => checkBelief({ topic: "/odom", kind: "map", name: "", stamps: [], columns: [] }), { message: "a pose or a frame was expected" });
+  assert.throws(() => checkBelief({ topic: "/odom", kind: "pose", name: "", stamps: [0], columns }), { message: "a value for each stamp was expected" });
+});
+
+test("a frame whose quaternion changes its sign does not turn", () => {
+  const columns = [[0, 0], [0, 0], [0, 0], [0, 0], [1000, -2000], [0, 0]];
+  const [frame] = beliefsAt([checkBelief({ topic: "/tf", kind: "frames", name: "odom", stamps: [0, 1000], columns })], 0.5);
+  assert.deepEqual([frame.name, frame.data[4]], ["odom", 1]);
+});
+
+test("the axes of a frame are seen from above", () => {
+  const rounded = (axes) => axes.map((axis) => axis.map((value) => Math.round(value * 1e6) / 1e6 + 0));
+  assert.deepEqual(rounded(axesOf([0, 0, Math.SQRT1_2, Math.SQRT1_2])), [[0, 1], [-1, 0], [0, 0]]);
+  assert.deepEqual(rounded(axesOf([-0.5, 0.5, -0.5, 0.5])), [[0, -1], [0, 0], [1, 0]]); // a camera's: z ahead, x right, y down
+});
+
+test("the ellipse of a covariance has the axes of its eigenvectors", () => {
+  assert.deepEqual(ellipseOf(0.04, 0, 0.01), [0.2, 0.1, 0]);
+  const [long, short, turn] = ellipseOf(0.025, 0.015, 0.025);
+  assert.ok(Math.abs(long - 0.2) < 1e-9 && Math.abs(short - 0.1) < 1e-9 && Math.abs(turn - Math.PI / 4) < 1e-9);
+});
+
+test("maps, plans and goals are shown until the reader hides them; poses, clouds, frames and images only when asked for", () => {
+  const shows = (kind) => LayerChoice.prototype.shows.call({ chosen: new Map([["/b", true]]) }, { topic: "/a", kind });
+  assert.deepEqual(["map", "plan", "goal", "pose", "cloud", "frames", "image"].map(shows), [true, true, true, false, false, false, false]);
+  assert.equal(LayerChoice.prototype.shows.call({ chosen: new Map([["/b", false]]) }, { topic: "/b", kind: "map" }), false);
+});
+
+test("an image that is no base64 is refused", () => {
+  const image = { stamp: 0, topic: "/image", kind: "image", data: { width: 4, height: 3, webp: "UklGRg==" } };
+  assert.equal(checkLayer(image).data.webp, "UklGRg==");
+  assert.throws(() => checkLayer({ ...image, data: { ...image.data, webp: '" onload="' } }), { message: "an image was expected" });
+});
+
+test("a click into a topic's plot is a time of the replay", () => {
+  const { Topic } = load(["topic"], ["Topic"]);
+  const at = (px) => Topic.prototype.timeAt.call({ range: [0, 20], canvas: { clientWidth: 108 } }, px);
+  assert.deepEqual([0, 4, 54, 104, 108].map(at), [0, 0, 10, 20, 20]);
+});
+
+test("a camera's topic has the image of the time", () => {
+  const image = (stamp, webp) => checkLayer({ stamp, topic: "/image", kind: "image", data: { width: 4, height: 3, webp } });
+  const messages = { type: "sensor_msgs/msg/Image", count: 0, stamps: [], texts: [], curves: [] };
+  const at = (time, name = "/image") => topicAt({ name, messages }, time, [image(1000, "AA"), image(2000, "BB")]).image?.webp;
+  assert.deepEqual([at(0.5), at(1.5), at(2), at(2, "/other")], [undefined, "AA", "BB", undefined]);
 });

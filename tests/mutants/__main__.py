@@ -55,7 +55,8 @@ def _files(names: Sequence[str]) -> list[str]:
 
 def _mirror(file: str) -> str:
     """The module of tests that has the place and the name of a module."""
-    path = Path("tests", Path(file).with_name(f"test_{Path(file).name}"))
+    path = Path("tests", Path(file.removeprefix("grader/") if "/exercises/" in file else file))
+    path = path.with_name(f"test_{path.name}")
     if not path.exists():
         raise NotTested(f"expected tests in {path}, which is missing: write it, or name others with --tests")
     return path.as_posix()

@@ -11,7 +11,7 @@ import pytest
 
 from tests.tooling.test_ci import ROOT, load
 
-prefix = load("prefix")
+prefix = load("prefix.py", "ros_packages/cmake")
 COLCON = Path(sys.executable).with_name("colcon")
 PACKAGE_XML = """\
 <?xml version="1.0"?>

@@ -1,16 +1,16 @@
 """install.py is silent when there is nothing to do and clear when it cannot go on."""
 
 import os
+import platform
 import shutil
 import signal
 import subprocess
 import sys
-from importlib import metadata
+from dataclasses import replace
 from pathlib import Path
 
 import install
 import pytest
-from build_tools.content import version
 
 from tests.patience import PATIENCE
 
@@ -18,8 +18,9 @@ from tests.patience import PATIENCE
 @pytest.fixture
 def changed(tmp_path, definitions) -> Path:
     """A copy of interfaces/ with one more package, so that its content is not installed and not cached."""
-    copy = tmp_path / "interfaces"
+    copy = tmp_path / "ros_packages" / "interfaces"
     shutil.copytree(definitions.parent, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(install.LIDAR_FOLDER, tmp_path / "sim/world/rays")
     message = copy / "definitions" / "a_msgs" / "msg" / "Broken.msg"
     message.parent.mkdir(parents=True)
     message.write_text("int32 two names\n", encoding="utf-8")
@@ -36,8 +37,17 @@ def files(directory: Path) -> set[Path]:
     return {path for path in directory.rglob("*") if "__pycache__" not in path.parts}
 
 
-def test_the_content_at_hand_is_what_is_installed():
-    assert metadata.version("ros2-course-interfaces") == version()
+@pytest.mark.parametrize("package", install.COMPILED, ids=lambda package: package.name)
+def test_the_content_at_hand_is_what_is_installed(package):
+    assert package.installed() == package.build_number()
+
+
+def test_two_builds_in_different_folders_have_the_same_bytes(tmp_path, monkeypatch):
+    built = []
+    for name in "first", "second":
+        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / name))
+        built.append(install.LIDAR.build().read_bytes())
+    assert built[0] == built[1]
 
 
 def test_a_second_call_is_silent_and_leaves_no_file_behind(definitions):
@@ -56,11 +66,12 @@ def test_a_second_call_loads_nothing_that_a_build_or_an_installation_needs(defin
     assert {"setuptools", "pip", "numpy", "em", "rclpy", "rosidl_adapter", "rosidl_parser"}.isdisjoint(loaded)
 
 
-def test_a_change_of_any_source_gives_another_version(changed):
-    program = "from build_tools.content import version; print(version())"
+def test_a_change_of_any_source_gives_another_build_number(changed):
+    program = "import install; print(*(package.build_number() for package in install.COMPILED))"
     words = [sys.executable, "-c", program]
-    other = subprocess.run(words, cwd=changed, capture_output=True, text=True, check=True, timeout=PATIENCE)
-    assert other.stdout.strip() != version()
+    other = subprocess.check_output(words, cwd=changed, text=True, timeout=PATIENCE).split()
+    here = [package.build_number() for package in install.COMPILED]
+    assert [a == b for a, b in zip(here, other, strict=True)] == [False, True]
 
 
 def test_without_a_compiler_it_stops_with_one_sentence(changed, tmp_path):
@@ -93,17 +104,20 @@ def test_a_definition_with_an_error_stops_the_build_and_the_reason_is_shown(chan
     assert not (tmp_path / "cache").exists()
 
 
-def test_without_an_installed_wheel_there_is_no_version(monkeypatch):
-    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-that-nothing-installed")
-    assert install.installed() is None
+def test_without_an_installed_wheel_there_is_no_build_number():
+    assert replace(install.LIDAR, name="ros2-course-that-nothing-installed").installed() is None
 
 
-def test_where_ross_own_packages_are_used_nothing_is_built(monkeypatch):
-    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-that-nothing-installed")
-    monkeypatch.setattr(install, "build", lambda wheel: pytest.fail("it was built"))
-    monkeypatch.setattr(install, "cached_wheel", lambda: pytest.fail("it was looked for"))
-    monkeypatch.setattr("platform.machine", lambda: "aarch64")
-    assert install.main() is None
+def test_a_ready_wheel_is_that_of_the_current_content_and_of_this_machine(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("WHEELS", str(tmp_path))
+    number = install.LIDAR.build_number()
+    for build, machine in ((number, "sparc"), ("1aaaaaaaaaaaa", "x86_64")):
+        (tmp_path / f"ros2_course_lidar-0.1.0-{build}-cp311-abi3-manylinux1_{machine}.whl").touch()
+    assert install.LIDAR.ready_wheel() is None
+    ready = tmp_path / f"ros2_course_lidar-0.1.0-{number}-cp311-abi3-manylinux1_{platform.machine()}.whl"
+    ready.touch()
+    assert install.LIDAR.ready_wheel() == ready
 
 
 def test_a_build_prints_the_current_package_and_returns_its_exit_status(tmp_path, capsys):
@@ -153,6 +167,6 @@ def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):
         assert [terminal.stdout.readline() for _ in range(2)][1] == "  1 of 10: a_msgs\n"
         os.killpg(terminal.pid, signal.SIGINT)
         output = terminal.communicate(timeout=PATIENCE)[1]
-    assert output == "Stopped: the ROS interfaces are built when the same command is run again.\n"
+    assert output == "Stopped: what is compiled is built when the same command is run again.\n"
     assert terminal.returncode == 1
     assert not (tmp_path / "cache").exists()

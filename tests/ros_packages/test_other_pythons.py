@@ -33,16 +33,14 @@ OTHERS = {
 
 def environment(python: str, directory: Path) -> Path:
     """A virtual environment with the same ROS wheels as this one's and our wheel; returns its Python."""
-    wheel = install.cached_wheel()
-    if not wheel.exists():
-        install.build(wheel)
+    wheel = install.INTERFACES.ready_wheel() or install.INTERFACES.build()
     ros = [
         f"{name}=={metadata.version(name.split('[')[0])}"
         for name in ("ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces", "numpy")
     ]
     made = directory / "bin" / "python"
     subprocess.run([UV, "venv", "--quiet", "--python", python, directory], check=True, timeout=PATIENCE)
-    command = [UV, "pip", "install", "--quiet", "--python", made, *ros, wheel]
+    command = [UV, "pip", "install", "--no-config", "--quiet", "--python", made, *ros, wheel]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE)
     if done.returncode:
         pytest.skip(f"the ROS wheels could not be installed: {done.stderr.strip()}")

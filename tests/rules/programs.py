@@ -18,10 +18,10 @@ import difflib
 import re
 from collections.abc import Iterator, Sequence
 
-from tests.exercises.score_tables import page
+from tests.exercises.score_tables import folder_of, page
 from tests.exercises.seeds import right_nodes
 from tests.rules.statements import POOR_CODE
-from tests.rules.table import ROOT, Cell, Table
+from tests.rules.table import Cell, Table
 
 ENOUGH = 0.9
 """How alike a node and a lesson's program are at least."""
@@ -69,7 +69,7 @@ def _definitions(source: str) -> list[Definition]:
 
 def definition_of(topic: str, exercise: str, node: str) -> Definition:
     """The definition of a student's node; of `node = main_of(Part)` that of the part."""
-    text = (ROOT / "tests/students" / topic / f"{exercise}.py").read_text(encoding="utf-8")
+    text = (folder_of(topic, exercise) / "students.py").read_text(encoding="utf-8")
     known = {item.name: item for item in _definitions(text)}
     for item in ast.parse(text).body:
         if isinstance(item, ast.Assign) and ast.unparse(item.targets[0]) == node:

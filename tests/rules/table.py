@@ -1,21 +1,24 @@
-"""The rules that the lessons state, and what looks for each of them: one file for each lesson, NN_TOPIC.toml.
+"""The rules that the lessons state, and what looks for each of them.
 
-A row, [[rule]], has
+A rule that a check looks for is in the folder of the exercise, tests/exercises/TOPIC/EXERCISE/rules.toml; one
+that no check looks for is in the file of its lesson, tests/rules/NN_TOPIC.toml. A row, [[rule]], has
 
     rule        the rule, in one sentence
+    lesson      in an exercise's folder: the lesson that states it, such as "02_topics"
     in.CELL     where the lesson states it: the id of a cell, and words of one sentence in it, or a list; of a
                 cell in another notebook than lesson.ipynb, such as driving.ipynb: in.driving.CELL
-    check       the check that looks for it, as "TOPIC/EXERCISE: FUNCTION"; a program that fails with an error
-                loses its points at "TOPIC/EXERCISE: runs", a package at "TOPIC/EXERCISE: is_built", and
-                without the types that it uses at "TOPIC/EXERCISE: has_types"
+    check       the exercise's check that looks for it: the name of its function; a program that fails with an
+                error loses its points at "runs", a package at "is_built", and without the types that it uses
+                at "has_types"
     wrong       nodes on the exercise's score page that break the rule, and lose points at this check
     right       nodes there that keep it, and earn everything
     program.CELL  the wrong node that is the program of this cell, adapted by renaming: see programs.py
     technique   where the rule recommends a way to write it: a pattern that the right nodes' sources have
+    unchecked   in a lesson's file, in place of check, wrong and right: "CATEGORY: reason"
 
-or, in place of check, wrong and right, `unchecked = "CATEGORY: reason"`; a technique is then one that a right
-node of any exercise has. The table [no_rule] has, by cell, words of sentences that state no rule, though they
-have one of the words that rules mostly have; [no_node], by cell, why no node is adapted from its program.
+Without a check a technique is one that a right node of any exercise has. In the file of a lesson the table
+[no_rule] has, by cell, words of sentences that state no rule, though they have one of the words that rules
+mostly have; [no_node], by cell, why no node is adapted from its program.
 """
 
 from __future__ import annotations
@@ -26,13 +29,13 @@ import json
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from grader.course_notebooks import FIRST, course_order
 from grader.diagnosis.fault import Fault
-from tests.exercises.score_tables import page
+from tests.exercises.score_tables import page, with_pages
 from tests.exercises.seeds import exercise_of, right_nodes
 
 ROOT = Path(__file__).parents[2]
@@ -92,17 +95,14 @@ class Table:
 def read_table(text: str) -> Table:
     """The table that a TOML file describes. Raises TypeError for a key that rows don't have."""
     data = tomllib.loads(text)
-    rules = [
-        Rule(
-            quotes=_quotes(row.pop("in")),
-            programs=_quotes(row.pop("program", {})),
-            **{key: _names(row.pop(key)) for key in ("wrong", "right") if key in row},
-            **row,
-        )
-        for row in data.pop("rule")
-    ]
+    rules = [_rule(row) for row in data.pop("rule", [])]
     more = {key: _quotes(data.pop(key, {})) for key in ("no_rule", "no_node")}
     return Table(tuple(rules), **more, **data)
+
+
+def _rule(row: dict[str, Any]) -> Rule:
+    lists = {key: _names(row.pop(key)) for key in ("wrong", "right") if key in row}
+    return Rule(quotes=_quotes(row.pop("in")), programs=_quotes(row.pop("program", {})), **lists, **row)
 
 
 def _names(value: str | list[str]) -> tuple[str, ...]:
@@ -120,8 +120,27 @@ def _quotes(cells: dict[str, Any], notebook: str = "") -> tuple[tuple[str, str],
 
 @functools.cache
 def table_of(lesson: str) -> Table:
-    """The table of a lesson, such as "01_nodes"."""
-    return read_table((TABLES / f"{lesson}.toml").read_text(encoding="utf-8"))
+    """The table of a lesson, such as "01_nodes", with its rows in the folders of exercises, in its order."""
+    table = read_table((TABLES / f"{lesson}.toml").read_text(encoding="utf-8"))
+    cells = cells_of(lesson)
+    places = {name: place for place, name in enumerate(cells)}
+
+    def place(rule: Rule) -> tuple[int, int]:
+        cell, words = rule.quotes[0]
+        return places.get(cell, -1), one_line(cells[cell].source).find(words) if cell in cells else -1
+
+    return replace(table, rules=tuple(sorted([*table.rules, *exercise_rules().get(lesson, [])], key=place)))
+
+
+@functools.cache
+def exercise_rules() -> dict[str, list[Rule]]:
+    """The rows in the folders of exercises, by lesson. Their checks are named "TOPIC/EXERCISE: FUNCTION"."""
+    found: dict[str, list[Rule]] = {}
+    for path in sorted(ROOT.glob("tests/exercises/*/*/rules.toml")):
+        for row in tomllib.loads(path.read_text(encoding="utf-8"))["rule"]:
+            check = f"{path.parts[-3]}/{path.parts[-2]}: {row['check']}"
+            found.setdefault(row.pop("lesson"), []).append(_rule(row | {"check": check}))
+    return found
 
 
 @dataclass(frozen=True)
@@ -205,17 +224,17 @@ def _sentence(topic: str, exercise: str, function: str) -> str:
 def users(technique: str) -> tuple[str, ...]:
     """The right nodes of all exercises whose source has this pattern, as "TOPIC/EXERCISE: NODE"."""
     return tuple(
-        f"{path.parent.name}/{path.stem}: {node}"
-        for path in sorted(ROOT.glob("tests/exercises/*/*.txt"))
-        for node in right_nodes(path.parent.name, path.stem)
-        if re.search(technique, source_of(path.parent.name, path.stem, node))
+        f"{topic}/{exercise}: {node}"
+        for topic, exercise in with_pages()
+        for node in right_nodes(topic, exercise)
+        if re.search(technique, source_of(topic, exercise, node))
     )
 
 
 def source_of(topic: str, exercise: str, node: str) -> str:
     """The source of a student's node, with everything of the students' modules that it uses."""
     found: dict[tuple[str, str], str] = {}
-    names = [(f"tests.students.{topic}.{exercise}", node)]
+    names = [(f"tests.exercises.{topic}.{exercise}.students", node)]
     while names:
         module, name = names.pop()
         definition = _definitions(module).get(name)
@@ -233,7 +252,7 @@ def _definitions(module: str) -> dict[str, str | tuple[str, str]]:
     text = (ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
     found: dict[str, str | tuple[str, str]] = {}
     for item in ast.parse(text).body:
-        if isinstance(item, ast.ImportFrom) and (item.module or "").startswith("tests.students."):
+        if isinstance(item, ast.ImportFrom) and (item.module or "").startswith("tests."):
             found |= {name.asname or name.name: (item.module, name.name) for name in item.names}
         elif isinstance(item, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             found[item.name] = ast.get_source_segment(text, item)

@@ -156,4 +156,4 @@ def test_the_source_of_a_node_has_all_that_it_uses():
     assert "return Process(OneMeter" in source_of("topics", "remapping", "as_task_says")
     assert "DurabilityPolicy.TRANSIENT_LOCAL" in source_of("silence", "late", "main_without_a_class")
     assert "heapq.heappush" in source_of("navigator", "plan", "Planner")
-    assert "namespace=side" in source_of("packages", "convoy", "Convoy")
+    assert "namespace=side" in source_of("launching", "convoy", "Convoy")

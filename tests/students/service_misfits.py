@@ -7,6 +7,7 @@ from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rcl_interfaces.srv import GetParameters
 from rclpy.action import ActionServer
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 
@@ -48,6 +49,21 @@ class NoOneReceives(Customer):
 
     def tick(self):
         self.client.call_async(self.request())
+
+
+class AwaitsTwice(Customer):
+    """Requests one sum after the other in a coroutine, the second one after the first `await`."""
+
+    def __init__(self):
+        Node.__init__(self, "customer")
+        group = ReentrantCallbackGroup()
+        self.client = self.create_client(AddTwoInts, "/add", callback_group=group)
+        self.timer = self.create_timer(1.0, self.ask, callback_group=group)
+
+    async def ask(self):
+        self.timer.cancel()
+        for _ in range(2):
+            await self.client.call_async(AddTwoInts.Request(a=1, b=-1))
 
 
 def adder_that_no_one_spins():

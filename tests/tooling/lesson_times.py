@@ -37,12 +37,13 @@ WORD = re.compile(r"[A-Za-z][\w'-]*")
 IN_TERMINAL = re.compile(r"^(ros2 (run|launch)|python -m sim)", re.M)
 SOURCE = re.compile(r"inspect\.getsource\((\w+)\.(\w+)\)")
 PREDICTION = re.compile(r"\bpredict\(|\.outcome\(")
+MOVES = re.compile(r"\banimate\(|\.replay\(|^@?interact\(|\bplay\(|^drive_one_of_two\(", re.M)
 NO_PYTHON = re.compile(r"^[%!].*", re.M)
 
 
 @dataclass(frozen=True)
 class Lesson:
-    """What a notebook of a lesson has, counted."""
+    """What a notebook of a lesson has, counted. moves: the first code cell in which something moves."""
 
     name: str
     shown: str
@@ -51,6 +52,8 @@ class Lesson:
     cells: int
     tries: int
     questions: int
+    predictions: int
+    moves: int | None
     plays: int
     sliders: int
     builds: int
@@ -97,6 +100,8 @@ def count(path: Path) -> Lesson:
         cells=len(sources),
         tries=text.count("**Try it yourself"),
         questions=text.count("<details>") + len(re.findall(r"\b(?:predict|explore)\(", everything)),
+        predictions=everything.count("predict("),
+        moves=next((n for n, source in enumerate(sources, 1) if MOVES.search(source)), None),
         plays=len(re.findall(r"\bplay\(", code)),
         sliders=len(re.findall(r"^@?interact\(", code, re.M)),
         builds=code.count("colcon build"),
@@ -141,8 +146,10 @@ def _depth(name: str, bases: dict[str, list[str]], below: tuple[str, ...] = ()) 
 
 
 if __name__ == "__main__":
-    print(f"{'':26}minutes  shown              words lines cells tries classes depth")
+    print(f"{'':26}minutes  shown              words lines cells tries", end="")
+    print(" classes depth plays sliders predict moves")
     for lesson in lessons():
         read = f"{lesson.words:5} {lesson.lines:5} {lesson.cells:5} {lesson.tries:5}"
         print(f"{lesson.name:26}{lesson.minutes:7.0f}  {lesson.shown[:18]:18} {read}", end="")
-        print(f"{lesson.classes:8} {lesson.depth:5}")
+        print(f"{lesson.classes:8} {lesson.depth:5} {lesson.plays:5} {lesson.sliders:7}", end="")
+        print(f" {lesson.predictions:7} {lesson.moves or '':>5}")

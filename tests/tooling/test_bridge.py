@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.marking.release.run_notebooks import execute
+from tests.tooling.lesson_times import MOVES
 
 ROOT = Path(__file__).parents[2]
 BRIDGE = ROOT / "course" / "bridge"
@@ -16,15 +17,31 @@ PAGES = sorted(path.stem for path in BRIDGE.glob("*.ipynb"))
 EVERY_DAY = "01_ros1"
 # What the text of a page says that its cells show.
 SHOWN = {
-    "01_ros1": ("10 messages: ", "6 beats in 5 s"),
-    "02_gazebo": ("lidar: 360 rays up to 3.5 m", "True\n", "/bumper        std_msgs/msg/Bool  "),
-    "03_control": ("incompatible type geometry_msgs", "0.85 m"),
+    "01_ros1": ("110 commands", "incompatible function arguments", "6 beats in 5 s"),
+    "02_gazebo": (
+        "0.7 m ahead, 0 contacts",
+        "2.9 m ahead, 1 contacts",
+        "lidar: 360 rays up to 3.5 m",
+        "True\n",
+        "/bumper        std_msgs/msg/Bool  ",
+    ),
+    "03_control": (
+        "'wheel_left_joint': -2.4",
+        "incompatible type geometry_msgs",
+        "0.85 m",
+        "left_wheel_test stays inactive: drive has claimed left_wheel_joint/velocity",
+    ),
     "04_dds": (
+        ": it drives\n",
+        ": it stands still\n",
         "exit status 102",
         "no server:  nothing in 3 s",
         "server:     received hello",
         "one of two: nothing in 3 s",
         "two domains: received hello",
+        "the daemon says: /parameter_events /rosout\n",
+        "without daemon:  /chatter ",
+        "`ros2 daemon` is not available here",
     ),
     "05_security": (
         "enclaves/robot/driver/cert.pem: OK",
@@ -33,16 +50,37 @@ SHOWN = {
         "/enclaves/robot/driver' does not exist",
         "This Fast DDS version doesn't have the security libraries",
     ),
-    "06_scripts": ("No module named 'scripts'", "tool_a clock\ntool_a report\n", "It is ", "79."),
+    "06_scripts": (
+        "No module named 'scripts'",
+        "tool_a circle\ntool_a clock\ntool_a report\n",
+        "It is ",
+        "79.",
+    ),
     "07_learning": (
         "in new worlds:    100%",
         "in the lab: 0%",
-        "BrakeThatSees: 0.00 m before the wall, 1 contacts",
-        "Brake and Sees: 0.20 m before the wall, 0 contacts",
+        "BrakeThatSees: 0.00 m from the wall, 1 contacts",
+        "Brake and Sees: 0.20 m from the wall, 0 contacts",
     ),
     "08_lab": ("reliability: reliable", "261 scans, 20.0 Hz", "age of a scan: 30 ms"),
     "09_questions": ("Driver: 0 contacts", "Circler: 0 contacts", "(median)"),
+    "10_nav2": (
+        "[17.000] [basic_navigator]: TaskResult.SUCCEEDED",
+        "[6.500] [basic_navigator]: TaskResult.CANCELED",
+        "[16.500] [basic_navigator]: TaskResult.SUCCEEDED",
+        "[26.100] [courier]: Not complete",
+        "(17.0, 'succeeded')",
+        "[18.000] [desk]: TaskResult.SUCCEEDED",
+        "(12.0, 'canceled')",
+    ),
+    "11_rviz": (
+        "360 points, seen from (0.51, 0.21)",
+        '"map" passed to lookupTransform argument target_frame does not exist',
+        "(4.4, 5.7) in map",
+        "/odom | Type: nav_msgs/msg/Odometry | Count: 201",
+    ),
 }
+PREDICTION = re.compile(r" = predict\(|\.outcome\(")
 RUNS = [name if name == EVERY_DAY else pytest.param(name, marks=pytest.mark.soak) for name in PAGES]
 
 
@@ -78,6 +116,9 @@ def test_two_folders_of_scripts_run_one_program_and_two_packages_run_two():
     first, second, *moved = re.findall(r"This is the report of (\w+)", text)
     assert first == second
     assert moved == ["tool_a", "tool_b"]
+    first, second, *moved = re.findall(r"turns to the (\w+)", text)
+    assert first == second
+    assert moved == ["left", "right"]
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -96,7 +137,24 @@ def test_a_page_says_what_was_not_run(page):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_a_page_is_short(page):
-    assert 8 <= len(cells(page)) <= 30
+    others = [name for name, source in cells(page).items() if not PREDICTION.search(source)]
+    (minutes,) = re.findall(r"\*\*Time:\*\* about (\d+) minutes", cells(page)["title"])
+    assert 8 <= len(others) <= 32 and int(minutes) <= 30
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_something_moves_in_the_first_cells_of_a_page(page):
+    first = list(cells(page).values())[:8]
+    assert any(MOVES.search(source) for source in first)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_asks_for_predictions_and_its_source_shows_no_outcome(page):
+    source = "\n".join(cells(page).values())
+    outcomes = re.findall(r"^(\w+)\.outcome\((.*)\)", source, re.M)
+    asked = re.findall(r"^(\w+) = predict\(", source, re.M)
+    assert [name for name, _ in outcomes] == asked != []
+    assert all(re.fullmatch(r'"[0-9a-f]{6}"', code) for _, code in outcomes)
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -17,10 +17,10 @@ FILES = (".github/workflows/check.yml", ".gitlab-ci.yml", ".devcontainer/devcont
 DOCKERFILE = ROOT / ".binder" / "Dockerfile"
 
 
-def load(name):
-    """A program of .ci/ as a module."""
-    loader = importlib.machinery.SourceFileLoader(name, str(ROOT / ".ci" / name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+def load(name, folder=".ci"):
+    """A program of .ci/, or of another folder, as a module."""
+    loader = importlib.machinery.SourceFileLoader(name.removesuffix(".py"), str(ROOT / folder / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
 
@@ -37,8 +37,8 @@ def git(folder: Path, *arguments: str) -> str:
 def change(tmp_path, monkeypatch) -> str:
     """A repository with two pages and a change in it; the commit that the change builds on."""
     for topic in ("nodes", "topics"):
-        (tmp_path / "tests/exercises" / topic).mkdir(parents=True)
-        (tmp_path / "tests/exercises" / topic / "a.txt").write_text("Right: 5\n\nWrong: 2\n")
+        (tmp_path / "tests/exercises" / topic / "a").mkdir(parents=True)
+        (tmp_path / "tests/exercises" / topic / "a/page.txt").write_text("Right: 5\n\nWrong: 2\n")
     (tmp_path / "tests/exercises/score_tables.py").touch()  # makes every page as it is
     git(tmp_path, "init", "--quiet", "--initial-branch=main")
     git(tmp_path, "add", ".")
@@ -82,7 +82,7 @@ def test_the_container_is_made_of_one_file_and_takes_only_what_it_names():
 
 def test_a_change_of_an_exercise_concerns_its_pages_and_one_of_a_check_concerns_all(change):
     assert pages.topics(["grader/exercises/nodes/hello.py"]) == ["nodes"]
-    assert pages.topics(["tests/students/topics/a.py", "README.md"]) == ["topics"]
+    assert pages.topics(["tests/exercises/topics/a/students.py", "README.md"]) == ["topics"]
     assert pages.topics(["grader/checks/motion.py"]) == ["nodes", "topics"]
     assert pages.topics(["sim/run.py"]) == ["nodes", "topics"]
     assert pages.topics(["grader/marking/pool.py", "course/01_nodes/lesson.ipynb"]) == []
@@ -95,23 +95,23 @@ def test_nothing_changed_is_said(change):
 
 
 def test_a_page_that_changes_is_shown_with_its_lines(change, tmp_path):
-    (tmp_path / "tests/exercises/nodes/a.txt").write_text("Right: 5\n\nWrong: 3\n")
+    (tmp_path / "tests/exercises/nodes/a/page.txt").write_text("Right: 5\n\nWrong: 3\n")
     git(tmp_path, "commit", "--quiet", "--all", "--message=change")
     said = pages.report(change)
-    assert said.startswith("### Score pages that change\n\n- `tests/exercises/nodes/a.txt`\n\n```diff\n")
+    assert said.startswith("### Score pages that change\n\n- `tests/exercises/nodes/a/page.txt`\n\n```diff\n")
     assert "\n-Wrong: 2\n+Wrong: 3\n" in said
     assert "score_tables" not in said
 
 
 def test_a_page_that_no_one_committed_ends_with_1_and_the_command(change, tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("GITHUB_ACTIONS", "true")
-    (tmp_path / "tests/exercises/topics/a.txt").write_text("Right: 4\n")
+    (tmp_path / "tests/exercises/topics/a/page.txt").write_text("Right: 4\n")
     assert pages.main(change) == 1
     reported = capsys.readouterr()
-    assert "- `tests/exercises/topics/a.txt`: **not committed**, run the command below\n" in reported.out
+    assert "- `tests/exercises/topics/a/page.txt`: **not committed**, run the command below\n" in reported.out
     assert "`.venv/bin/python -m tests.exercises.score_tables topics/a` writes them" in reported.out
     assert reported.err.splitlines()[-1] == (
-        "::error file=tests/exercises/topics/a.txt::"
+        "::error file=tests/exercises/topics/a/page.txt::"
         "These points or words are no longer what the sample nodes get."
     )
 
@@ -120,7 +120,7 @@ def test_the_pages_of_a_changed_exercise_are_made_anew(change, tmp_path, capfd, 
     monkeypatch.delenv("GITHUB_ACTIONS", raising=False)
     (tmp_path / "tests/exercises/score_tables.py").write_text(
         "import pathlib, sys\n"
-        "pathlib.Path('tests/exercises', sys.argv[1], 'a.txt').write_text('Right: 6\\n')\n"
+        "pathlib.Path('tests/exercises', sys.argv[1], 'a/page.txt').write_text('Right: 6\\n')\n"
     )
     (tmp_path / "grader/exercises/nodes").mkdir(parents=True)
     (tmp_path / "grader/exercises/nodes/a.py").touch()

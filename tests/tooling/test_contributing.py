@@ -6,17 +6,24 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import tomllib
 from pathlib import Path
 
 import nbformat
 import pytest
-from nbformat.v4 import new_code_cell, new_markdown_cell
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 NAME, TOPIC, FOLDER = "battery_level", "topics", "02_topics"
-COPIED = "sim", "grader", "ros_packages", "tests", "pyproject.toml", "nbgrader_config.py"
-GATES = ("test_topics.py", "test_adversaries.py", "test_hints.py")
+COPIED = "sim", "grader", "ros_packages", "tests", "course", "pyproject.toml", "nbgrader_config.py"
+NOTEBOOK = f"solutions/{FOLDER}/{TOPIC}.ipynb"
+EXERCISE, PROOF = f"grader/exercises/{TOPIC}/{{}}", f"tests/exercises/{TOPIC}/{{}}"
+DELETED = "imu"
+WITHOUT_ROW = f"""
+from tests.rules.statements import without_row
+from tests.rules.table import cells_of, table_of
+print(*without_row(table_of("{FOLDER}"), cells_of("{FOLDER}")), sep="\\n")
+"""
 POINTS = 15
 LEAST = 20  # tests that must have looked at the exercise
 
@@ -33,34 +40,20 @@ LAST_CHECK = blocks("Add a check", "python")[0]
 PAGE = blocks("Add an exercise", "text")[0]
 
 
-def cells():
-    """The four cells of the exercise in its notebook."""
-    answer = {
-        "grade": False,
-        "grade_id": NAME,
-        "locked": False,
-        "schema_version": 3,
-        "solution": True,
-        "task": False,
-    }
-    points = answer | {
-        "grade": True,
-        "grade_id": f"{NAME}-points",
-        "locked": True,
-        "points": POINTS,
-        "solution": False,
-    }
-    return [
-        new_markdown_cell(f"## 8. A battery ({POINTS} points)", id=f"{NAME}-task"),
-        new_code_cell(ANSWER.strip(), id=NAME, metadata={"nbgrader": answer}),
-        new_code_cell(SEE.strip(), id=f"{NAME}-see"),
-        new_code_cell(f"topics.{NAME}.grade(Battery)", id=f"{NAME}-points", metadata={"nbgrader": points}),
-    ]
+def fill_in(path):
+    """Fill in the cells that the guide shows."""
+    notebook = nbformat.read(path, 4)
+    cells = {cell.id: cell for cell in notebook.cells}
+    cells[f"{NAME}-task"].source = f"## 8. A battery ({POINTS} points)"
+    cells[NAME].source, cells[f"{NAME}-see"].source = ANSWER.strip(), SEE.strip()
+    cells[f"{NAME}-points"].source = f"topics.{NAME}.grade(Battery)"
+    cells[f"{NAME}-points"].metadata.nbgrader["points"] = POINTS
+    nbformat.write(notebook, path)
 
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    """A copy of the course with the exercise in it, as the guide's six steps say."""
+    """A copy of the course with the exercise in it, as the guide's steps say."""
     copy = tmp_path_factory.mktemp("copy") / "course"
     for name in (*COPIED, f"solutions/{FOLDER}"):
         source, target = ROOT / name, copy / name
@@ -69,16 +62,11 @@ def copy(tmp_path_factory):
             shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "my_*", "ws"))
         else:
             shutil.copy(source, target)
-    exercises, students = copy / "grader/exercises" / TOPIC, copy / "tests/students" / TOPIC
-    (exercises / f"{NAME}.py").write_text(f"{FIRST_CHECKS}\n\n{LAST_CHECK}", encoding="utf-8")
-    with (exercises / "__init__.py").open("a", encoding="utf-8") as names:
-        names.write(f"\nfrom grader.exercises.{TOPIC}.{NAME} import {NAME}\n")
-    (students / f"{NAME}.py").write_text(STUDENTS, encoding="utf-8")
-    path = copy / "solutions" / FOLDER / f"{TOPIC}.ipynb"
-    notebook = nbformat.read(path, 4)
-    notebook.cells += cells()
-    nbformat.write(notebook, path)
-    run(copy, "-m", "tests.exercises.score_tables", f"{TOPIC}/{NAME}")
+    run(copy, "-m", "tests.exercises", "--new", TOPIC, NAME)
+    exercise, nodes = EXERCISE.format(NAME), PROOF.format(NAME)
+    (copy / f"{exercise}.py").write_text(f"{FIRST_CHECKS}\n\n{LAST_CHECK}", encoding="utf-8")
+    (copy / nodes / "students.py").write_text(STUDENTS, encoding="utf-8")
+    fill_in(copy / NOTEBOOK)
     run(copy, "-m", "grader.marking.release.make_exercises")
     for other in (ROOT / "solutions").iterdir():  # their notebooks say which exercises there are
         if other.is_dir() and other.name != FOLDER:
@@ -95,17 +83,28 @@ def run(copy, *words):
     return done.stdout
 
 
-def test_the_page_in_the_guide_is_the_page_that_is_written(copy):
-    page = copy / "tests/exercises" / TOPIC / f"{NAME}.txt"
-    assert page.read_text(encoding="utf-8") == PAGE
-
-
-def test_the_exercise_passes_every_test_of_exercises(copy):
-    files = [f"tests/exercises/{name}" for name in GATES]
-    chosen = f"{NAME} or starter or test_cell or every_exercise or hints"
-    said = run(copy, "-m", "pytest", "-q", "-n0", "-p", "no:cacheprovider", "-k", chosen, *files)
+def test_the_exercise_passes_the_gate_which_writes_the_page_in_the_guide(copy):
+    said = run(copy, "-m", "tests.exercises", NAME)
     passed = re.search(r"^(\d+) passed", said, re.M)
     assert passed and int(passed[1]) >= LEAST, said
+    assert said.rstrip().endswith("Right nodes earn everything with other seeds and in other orders.")
+    assert (copy / PROOF.format(NAME) / "page.txt").read_text(encoding="utf-8") == PAGE
+
+
+def test_an_exercise_is_gone_with_its_two_folders_and_its_cells(copy):
+    """The rules that it looked for are left to the lesson, which has to say why nothing looks for them."""
+    (copy / PROOF.format(NAME) / "page.txt").write_text(PAGE, encoding="utf-8")  # as the gate does
+    rules = tomllib.loads((copy / PROOF.format(DELETED) / "rules.toml").read_text(encoding="utf-8"))["rule"]
+    cells_with_rules = {cell for rule in rules for cell in rule["in"]}
+    shutil.rmtree(copy / PROOF.format(DELETED))
+    (copy / f"{EXERCISE.format(DELETED)}.py").unlink()
+    notebook = nbformat.read(copy / NOTEBOOK, 4)
+    notebook.cells = [cell for cell in notebook.cells if cell.id.split("-")[0] != DELETED]
+    nbformat.write(notebook, copy / NOTEBOOK)
+    assert run(copy, "-c", "from grader.catalog import exercises; print('imu' in exercises())") == "False\n"
+    run(copy, "-m", "pytest", "--collect-only", "-q", "-n0", "tests/exercises")
+    said = run(copy, "-c", WITHOUT_ROW)
+    assert {line.partition(":")[0] for line in said.splitlines()} <= cells_with_rules
 
 
 def test_the_exercise_is_no_longer_than_the_guide_promises():

@@ -150,3 +150,34 @@ def test_what_is_wrong_in_the_bridge_s_file_is_found(file, problem):
 def test_what_is_wrong_with_controllers_is_found(old, new, problem):
     wrong = text("controllers.yaml").replace(old, new)
     assert controller_problems(wrong, text("robot.urdf")) == [problem]
+
+
+ARM = """
+controller_manager:
+  ros__parameters:
+    arm:
+      type: joint_trajectory_controller/JointTrajectoryController
+arm:
+  ros__parameters:
+    joints: [left_wheel_joint]
+    command_interfaces: [position]
+    state_interfaces: [position, velocity]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "problem"),
+    [
+        ("[left_wheel_joint]", "[shoulder]", "arm: the robot has no joint shoulder"),
+        ("    command_interfaces: [position]\n", "", "arm: command_interfaces is missing, or empty"),
+        ("[left_wheel_joint]", "[]", "arm: joints is missing, or empty"),
+        (
+            "[position]",
+            "[angle]",
+            "arm: command_interfaces has angle; expected position, velocity, acceleration, effort",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_controller_of_an_arm_is_found(old, new, problem):
+    assert controller_problems(ARM, text("robot.urdf")) == []
+    assert controller_problems(ARM.replace(old, new), text("robot.urdf")) == [problem]

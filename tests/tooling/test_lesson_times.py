@@ -30,6 +30,11 @@ def test_a_lesson_fits_in_one_sitting(lesson):
 
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.name)
+def test_something_moves_in_every_lesson(lesson):
+    assert lesson.moves
+
+
+@pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.name)
 def test_a_class_that_is_built_in_pieces_has_few_of_them(lesson):
     assert lesson.depth <= DEEPEST
 

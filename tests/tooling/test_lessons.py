@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.course_notebooks import part_of
 from tests.exercises.score_tables import graded_exercises, notebook_run
 
 ROOT = Path(__file__).parents[2]
@@ -56,7 +57,7 @@ def test_no_source_shows_which_answer_of_a_prediction_is_right(lesson):
 
 
 def test_every_assignment_has_a_lesson():
-    assert set(ASSIGNMENTS) <= {path.parent.name for path in LESSONS}
+    assert {part_of(name) for name in ASSIGNMENTS} <= {part_of(path.parent.name) for path in LESSONS}
 
 
 @pytest.mark.parametrize("lesson", NAMES)
@@ -80,7 +81,9 @@ def test_a_lesson_shows_no_bad_habits(lesson):
 @pytest.mark.parametrize("assignment", ASSIGNMENTS)
 def test_an_assignment_says_its_time_and_ends_with_an_open_task(assignment):
     texts = dict(cells("solutions", assignment))
-    assert "**Time:**" in texts["title"] and "course/glossary.md" in texts["title"]
+    head, first, *_ = texts["title"].split("\n\n")
+    assert head.startswith("# Assignment ") and first.startswith("**Time:** about ")
+    assert "course/glossary.md" in texts["title"]
     assert texts["open-task"].startswith("## One more, without points")
 
 

@@ -67,7 +67,8 @@ def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
 
 @BOTH
 def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
-    found = ran(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
+    lesson = "02_topics/connecting"
+    found = ran(yard, tmp_path / "errors", lesson, ["main"], number, listen=COMMANDS, at_end=STOPPED)
     assert found["ended"] == [0], found["errors"]
     assert found["received"]["/cmd_vel"][-2:] == [0.3, 0.0]
     assert found["errors"] == ""
@@ -93,7 +94,7 @@ def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
 @pytest.mark.parametrize(("listener", "receives"), [("Listener", False), ("EasyListener", True)])
 def test_a_best_effort_publisher_is_received_with_the_sensor_profile_only(yard, tmp_path, listener, receives):
     until = f"({'I heard: Hello' if receives else 'incompatible QoS'!r} in errors) and {A_WHILE}"
-    found = ran(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
+    found = ran(yard, tmp_path / "errors", "02_topics/connecting", [listener, "CarelessTalker"], until=until)
     assert found["ended"] == [0, 0], found["errors"]
     assert ("I heard: Hello" in found["errors"]) == receives
     assert ("incompatible QoS" in found["errors"]) == (not receives)
@@ -121,7 +122,7 @@ def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
 
 @pytest.mark.soak
 @pytest.mark.parametrize(("circler", "words"), [
-    ("CarefulCircler", "a radius is 0.2 m or more"),
+    ("CarefulCircler", "the radius must be 0.2 m or more"),
     ("RangedCircler", "Parameter radius out of range"),
     ("Circler", "ZeroDivisionError"),
 ])  # fmt: skip

@@ -1,7 +1,9 @@
-"""The package that grows in lessons 3, 5 and 9: its listings, and its programs beside `python -m sim`."""
+"""The package that grows in lessons 5 and 9: its listings, and its programs beside `python -m sim`."""
 
 import json
+import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +14,7 @@ from tests.patience import PATIENCE
 from tests.sim.standalone.programs import environment, robot
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = {"03_services/parameters": "circler", "05_sensing/guarding": "guard", "09_frames/lesson": "mount"}
+PROGRAMS = {"05_sensing/guarding": "guard", "09_frames/lesson": "mount"}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 
 
@@ -37,34 +39,30 @@ def terminal(**more):
 
 
 def write_package(folder):
-    """Write the package as the three lessons do, with their lines of setup.py, and build it."""
-    commands = blocks("03_services/parameters", "")[0]
+    """Write the package as the lessons do, with their line of setup.py, and build it."""
+    commands = blocks("05_sensing/guarding", "")[0]
     subprocess.run(["bash", "-ec", commands], cwd=folder, env=terminal(), check=True)
     package = folder / "my_ws/src/my_nodes"
     for lesson, program in PROGRAMS.items():
         (package / "my_nodes" / f"{program}.py").write_text(blocks(lesson, "python")[0])
     setup = package / "setup.py"
-    made = (
-        "'circler = my_nodes.circler:main',\n"
-        if "'circler = my_nodes.circler:main',\n" in setup.read_text()
-        else ""
-    )
-    old = made or "'circler = my_nodes.circler:main'"
-    lines = blocks("05_sensing/guarding", "python")[1].strip() + "\n'mount = my_nodes.mount:main',\n"
+    old = "'guard = my_nodes.guard:main'"
     assert old in setup.read_text()
-    setup.write_text(setup.read_text().replace(old, lines))
+    setup.write_text(setup.read_text().replace(old, f"{old},\n'mount = my_nodes.mount:main'"))
     subprocess.run(["colcon", "build"], cwd=folder / "my_ws", env=terminal(), check=True)
 
 
 @pytest.mark.soak  # it builds a package, and runs its programs in real time
-def test_the_programs_of_the_three_lessons_run_beside_a_robot(tmp_path):
+def test_the_programs_of_the_lessons_run_beside_a_robot(tmp_path):
     write_package(tmp_path)
     with robot("--world", "room", "--headless") as room:
         domain = {"ROS_DOMAIN_ID": str(room.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         source = "cd my_ws && source install/setup.bash && exec"
-        through = blocks("05_sensing/guarding", "")[1].strip()
+        through = blocks("05_sensing/guarding", "")[2].strip()
         started = [
-            subprocess.Popen(["bash", "-c", f"{source} {command}"], cwd=tmp_path, env=terminal(**domain))
+            subprocess.Popen(
+                ["bash", "-c", f"{source} {command}"], cwd=tmp_path, env=terminal(**domain), process_group=0
+            )
             for command in ("ros2 run my_nodes guard", "ros2 run my_nodes mount", through)
         ]
         try:
@@ -79,6 +77,6 @@ def test_the_programs_of_the_three_lessons_run_beside_a_robot(tmp_path):
                 assert answer in found.stdout
         finally:
             for process in started:
-                process.terminate()
+                os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does: to `ros2 run` and to its program
             for process in started:
                 process.wait(PATIENCE)

@@ -1,4 +1,4 @@
-""".ci/prefix makes an environment a ROS prefix for colcon and CMake."""
+"""ros_packages/cmake/prefix.py makes an environment a ROS prefix for colcon and CMake."""
 
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 
 from tests.tooling.test_ci import ROOT, load
 
-prefix = load("prefix")
+prefix = load("prefix.py", "ros_packages/cmake")
 BUILD_FOLDERS = "/opt/python/cp311-cp311"
 WHEELS = f'INCLUDE "{BUILD_FOLDERS}/include/python3.11;{BUILD_FOLDERS}/lib/python3.11/site-packages/x"\n'
 

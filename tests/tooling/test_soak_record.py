@@ -29,6 +29,7 @@ def course(tmp_path: Path) -> Path:
     for name, outcome in (("good", True), ("bad", False)):
         (tmp_path / "tests" / f"test_{name}.py").write_text(TESTS.format(mark="soak", outcome=outcome))
     (tmp_path / "tests" / "test_quick.py").write_text("def test_common(): pass\n")
+    (tmp_path / "tests" / "helper.py").write_text(TESTS.format(mark="soak", outcome=True))
     (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers = soak\n")
     subprocess.run(["git", "init", "--quiet"], cwd=tmp_path, check=True)
     return tmp_path
@@ -53,3 +54,11 @@ def test_files_that_have_not_passed_in_a_fortnight_are_named(course):
         "tests/test_good.py: its soak tests passed last on 2026-11-13",
     ]
     assert soak_record.overdue(course, TODAY - datetime.timedelta(days=1))[1:] == []
+
+
+def test_the_soak_tests_that_an_assignment_inherits_count(course):
+    (course / "tests/exercises").mkdir()
+    (course / "tests/exercises/test_topics.py").write_text(f"class TestTopics({'Assignment'}):\n    pass\n")
+    assert "tests/exercises/test_topics.py: tests/soak.txt has no run of its soak tests" in (
+        soak_record.overdue(course, TODAY)
+    )

@@ -106,12 +106,13 @@ def repeated_classes(files: dict[str, str]) -> list[str]:
 def repeated_modules(paths: list[str]) -> list[str]:
     """A sentence for each module name that occurs more than once, unless SAME_MEANING has it.
 
-    A package may have a main module of its own name. The module of an exercise has the name of the exercise.
+    A package may have a main module of its own name. What serves one exercise is named within its folder.
     """
     places = defaultdict(list)
     for path in map(Path, paths):
         name = path.parent.name if path.name == "__init__.py" else path.stem
-        if path.match("grader/exercises/*/*.py") or (path.name != "__init__.py" and path.parent.name == name):
+        is_main = path.name != "__init__.py" and path.parent.name == name
+        if is_main or path.is_relative_to("grader/exercises"):
             continue
         places[name].append(path.as_posix())
     return [

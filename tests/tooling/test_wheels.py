@@ -1,4 +1,4 @@
-"""`make wheels` writes what the set-up reads."""
+"""`make wheels` writes what pip and the set-up read."""
 
 import hashlib
 import sys
@@ -9,45 +9,61 @@ import pytest
 from tests.tooling.test_ci import load
 
 wheels = load("wheels")
+HERE = "{}.{}".format(*sys.version_info)
+OTHER = "3.13" if HERE != "3.13" else "3.12"
+COURSE_WHEELS = ("ros2_course_interfaces-0.1.0-1f28cb-cp311", "ros2_notebook_course-0.1.0-py3")
 
 
 @pytest.fixture
-def collected(tmp_path, monkeypatch) -> Path:
-    """wheels/ of three packages, in a folder where an older one lay."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "wheels").mkdir()
-    (tmp_path / "wheels" / "old-1.0-py3-none-any.whl").touch()
+def made(tmp_path, monkeypatch):
+    """Makes wheels/ where an older one is, with these options; downloads nothing."""
 
-    def collect(folder: Path) -> None:
-        folder.mkdir()
-        for name in ("ros_std_msgs-5.3.6-cp312", "uv-0.13.8-py3", "ros2_course_interfaces-1.0.0+f28cb-cp311"):
+    def write(folder: Path, *names: str) -> None:
+        for name in names:
             (folder / f"{name}-any.whl").write_bytes(name.encode())
 
-    monkeypatch.setattr(wheels, "collect", collect)
-    wheels.main()
-    return tmp_path / "wheels"
+    def collect(folder: Path, found: dict[str, str]) -> None:
+        write(folder, "ros_std_msgs-5.3.6-cp312", "uv-0.13.8-py3")
+        write(folder, *(f"numpy-2.4.6-cp{version.replace('.', '')}" for version in found))
 
+    def make(*options: str) -> Path:
+        wheels.main(options)
+        return tmp_path / "wheels"
 
-def test_the_folder_names_every_package_with_its_hash_but_uv_which_goes_again(collected):
-    assert (collected / "requirements.lock").read_text().splitlines() == [
-        f"{name} --hash=sha256:{hashlib.sha256(content).hexdigest()}"
-        for name, content in (
-            ("ros2-course-interfaces==1.0.0+f28cb", b"ros2_course_interfaces-1.0.0+f28cb-cp311"),
-            ("ros-std-msgs==5.3.6", b"ros_std_msgs-5.3.6-cp312"),
-        )
-    ]
-    assert len(list(collected.glob("uv-*.whl"))) == 1
-
-
-def test_it_says_for_which_python_it_is_and_takes_the_place_of_the_old_one(collected, capsys):
-    assert (collected / "PYTHON").read_text() == f"3.{sys.version_info.minor}\n"
-    assert not list(collected.glob("old*"))
-    assert [path.name for path in collected.parent.iterdir()] == ["wheels"]
-
-
-def test_it_says_what_it_collected(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(wheels, "collect", lambda folder: folder.mkdir())
-    wheels.main()
-    python = f"3.{sys.version_info.minor}"
-    assert capsys.readouterr().out == f"wheels/: 0 packages, 0 MB, for Python {python}\n"
+    (tmp_path / "wheels").mkdir()
+    write(tmp_path / "wheels", "old-1.0-py3-none")
+    monkeypatch.setattr(wheels, "build", lambda folder: write(folder, *COURSE_WHEELS))
+    monkeypatch.setattr(wheels, "collect", collect)
+    monkeypatch.setattr(wheels, "pythons", lambda: {HERE: sys.executable, OTHER: "/elsewhere/python"})
+    return make
+
+
+def test_the_courses_own_wheels_take_the_place_of_the_old_ones(made, capsys):
+    folder = made()
+    assert sorted(path.name for path in folder.iterdir()) == [f"{name}-any.whl" for name in COURSE_WHEELS]
+    assert [path.name for path in folder.parent.iterdir()] == ["wheels"]
+    assert capsys.readouterr().out == "wheels/: 2 packages, 0.0 MB\n"
+
+
+def test_offline_names_every_other_package_with_its_hashes_but_uv_which_goes_again(made):
+    numpy = [f"numpy-2.4.6-cp{version.replace('.', '')}" for version in sorted({HERE, OTHER})]
+    digests = [hashlib.sha256(name.encode()).hexdigest() for name in (*numpy, "ros_std_msgs-5.3.6-cp312")]
+    folder = made("--offline")
+    assert (folder / "requirements.lock").read_text().splitlines() == [
+        f"numpy==2.4.6 --hash=sha256:{digests[0]} --hash=sha256:{digests[1]}",
+        f"ros-std-msgs==5.3.6 --hash=sha256:{digests[2]}",
+    ]
+    assert len(list(folder.glob("uv-*.whl"))) == 1
+
+
+def test_offline_says_for_which_pythons_it_is(made, capsys):
+    assert (made("--offline") / "PYTHONS").read_text() == f"{HERE} {OTHER}\n"
+    expected = f"wheels/: 6 packages, 0.0 MB, for a set-up without network on Python {HERE}, {OTHER}\n"
+    assert capsys.readouterr().out == expected
+
+
+def test_the_pythons_of_this_machine_are_the_supported_ones_and_this_one_first():
+    found = wheels.pythons()
+    assert next(iter(found.items())) == (HERE, sys.executable)
+    assert set(found) <= {"3.11", "3.12", "3.13", "3.14"}

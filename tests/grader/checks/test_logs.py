@@ -187,7 +187,7 @@ def test_come_every_says_the_pace_and_that_one_timer_sets_it():
         ((2.0,), "one line, at 2 s"),
         ((0.0, 0.0, 0.0), "3 lines at once, at 0 s"),
         ((1.0, 2.0, 2.5, 4.0), "pauses between 0.5 s and 1.5 s"),
-        ((0.0, 0.0, 1.0), "pauses between 0 s and 1 s"),
+        ((0.0, 0.0, 1.0), "lines that come at the same moment, then a pause of 1 s"),
         ((1.0, 1.0 + 4e-7, 1.0 + 8e-7), "3 lines at once, at 1 s"),
         ((1.0, 1.0005, 1.001), "a line every 0.0005 s, from 1 s to 1 s"),
         ((1.0, 1.5, 2.0 + 5e-7), "a line every 0.5 s, from 1 s to 2 s"),

@@ -71,7 +71,9 @@ def test_calls_and_goals_between_a_students_own_nodes_are_no_evidence(staged):
         ("", False, False, True),  # no server took it: there is nothing that it could show
     ],
 )
-def test_a_call_is_evidence_where_the_course_has_an_end_of_it_or_it_has_no_server(server, by_course, of_course, kept):
+def test_a_call_is_evidence_where_the_course_has_an_end_of_it_or_it_has_no_server(
+    server, by_course, of_course, kept
+):
     call = Call("/ask", "std_srvs/srv/Trigger", "/client", b"", 0.0, server)
     call.requested_by_course, call.served_by_course = by_course, of_course
     assert (evidence_of(recording(calls=[call])).calls == [call]) == kept
@@ -140,3 +142,12 @@ def test_a_line_that_could_have_all_answers_in_it_is_no_evidence():
         LogLine(3.0, "INFO", "course", "x" * (LONGEST_LINE + 1), from_course=True),
     ]
     assert evidence_of(recording(logs=lines)).logs == [lines[0], lines[2]]
+
+
+def test_a_node_that_wrote_only_such_lines_wrote_something():
+    lines = [
+        LogLine(2.0, "INFO", "talker", "x" * (LONGEST_LINE + 1)),
+        LogLine(3.0, "INFO", "course", "x" * (LONGEST_LINE + 1), from_course=True),
+    ]
+    text = "(a line too long to be an answer)"
+    assert evidence_of(recording(logs=lines)).logs == [lines[0]._replace(text=text), lines[1]]

@@ -10,9 +10,9 @@ from grader.checks import lasts, publishes, rate, series, subscribes, within
 from grader.checks.topics import keeps_pace, longest_pause
 from sim import run
 from sim.evidence import Ended, Endpoint, Graph
+from tests.exercises.topics.temperature import students as temperature
 from tests.grader.recordings import published, recording
 from tests.students import misfits
-from tests.students.topics import temperature
 
 
 def ticks(stamps, message=None):

@@ -17,6 +17,10 @@ PRINTED = {
     "Package 'demo' not found: source ws/install/setup.bash was not typed in this terminal": (
         "not typed in this terminal"
     ),
+    "Package 'demo' not found: source ws/install/setup.bash again, because it was built later": (
+        "it was built later"
+    ),
+    "The directory already exists: ws/src/demo": "directory already exists",
     "There are no nodes on ROS domain 0, but on 42: export ROS_DOMAIN_ID=42": "ROS domain",
     "Summary: 0 packages finished: there is no package 'domo'": "Summary: 0 packages",
     "colcon test is not executed here: colcon build is": "colcon build is",

@@ -120,6 +120,6 @@ SERVICE_CAUSES = {
     (
         services.SlowAdder,
         misfits.NoOneReceives,
-    ): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
-    "took it: `call_async(request).add_done_callback(self.on_response)` names the method that receives it.",
+    ): "/customer called /add at 1 s, and the answer came at 1.5 s, but no "
+    "callback received it: `call_async(request).add_done_callback(self.on_response)` names the method that receives it.",
 }

@@ -6,12 +6,12 @@ from grader.companions.service_clients import Tuner
 from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
+from tests.exercises.actions.square.students import SquareClient
+from tests.exercises.services.parameters import students as parameters
 from tests.grader.diagnosis import test_radio, test_reported, test_silent_mistakes
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits, service_misfits
-from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
-from tests.students.services import parameters
 
 TYPO = "/talker publishes on {}, /listener subscribes to /chatter: two different topics. "
 CAUSES = {
@@ -151,6 +151,14 @@ def test_the_name_that_isnt_the_course_is_the_misspelt_one():
     assert explain(misheard).endswith("Is /chatter a typo? Did you mean /chater?")
     called = run(services.done_callback, companions=[service_misfits.MisspeltService], quiet=True)
     assert explain(called).endswith("Did you mean /ad?")
+
+
+def test_a_coroutine_takes_what_it_awaits_and_the_course_may_answer_with_zeros():
+    recording = run(service_misfits.AwaitsTwice, companions=[services.SlowAdder], seconds=5, quiet=True)
+    assert [call.response.sum for call in recording.calls] == [0, 0]
+    assert explain(recording) == ""
+    companions = [service_misfits.NoOneReceives]
+    assert explain(run(services.SlowAdder, companions=companions, seconds=5, quiet=True)) == ""
 
 
 def namesakes():

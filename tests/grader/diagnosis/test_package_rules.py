@@ -14,8 +14,9 @@ from tests.exercises.score_tables import graded_exercises, page
 
 HINTS = {
     line.removeprefix("  Hint: ")
-    for exercise in graded_exercises("11_packages")
-    for block in page("packages", exercise).values()
+    for folder in ("11_packages", "11b_launching", "11c_testing")
+    for exercise in graded_exercises(folder)
+    for block in page(folder.partition("_")[2], exercise).values()
     for line in block.splitlines()
     if line.startswith("  Hint: ")
 }

@@ -19,6 +19,10 @@ SENTENCES = {
         "(line N). To publish at the end, begin with "
         "rclpy.init(signal_handler_options=SignalHandlerOptions.NO)."
     ),
+    after_interrupt.interrupts_itself: (
+        "KeyboardInterrupt came out of interrupts_itself() (line N), which prints a traceback in a terminal. "
+        "Spin in a try block with `except KeyboardInterrupt:` below it; a `pass` there is enough."
+    ),
     after_interrupt.pauses_at_the_end: (
         "After the Ctrl-C at the end, pauses_at_the_end ends in ValueError: after the pause (line N)."
     ),
@@ -31,6 +35,6 @@ def test_an_end_in_an_error_is_named(program):
     assert re.sub(r"line \d+", "line N", find_flaw(recording)) == SENTENCES[program]
 
 
-@pytest.mark.parametrize("program", [mains.classic, mains.with_finally, mains.Counter])
+@pytest.mark.parametrize("program", [mains.classic, mains.with_finally, mains.Counter, after_interrupt.Impatient])
 def test_a_clean_end_and_the_interrupt_itself_are_not(program):
     assert find_flaw(run(program, mains.classic, seconds=1, quiet=True)) == ""

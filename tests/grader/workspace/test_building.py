@@ -11,7 +11,7 @@ from grader.workspace.build_errors import explain_build_error
 from grader.workspace.building import CUT, Built, CannotBuildHere, build, parse_built
 from grader.workspace.package import make_package
 from grader.workspace.sources import InvalidFiles
-from tests.students.packages import greeter
+from tests.exercises.packages.greeter import students as greeter
 
 RIGHT = {path: text.encode() for path, text in greeter.RIGHT.items()}
 

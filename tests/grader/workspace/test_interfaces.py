@@ -4,14 +4,15 @@ import sys
 
 import pytest
 
-from grader.companions.crates import INTERFACES
+from grader.exercises.launching.keeper.crates import INTERFACES
 from grader.workspace import judge_types
 from grader.workspace.building import Built, build
 from grader.workspace.interfaces import package_name, type_hash
 from grader.workspace.package import make_package, with_interfaces
 from grader.workspace.package_xml import CMAKE
 from sim.ros.remote.validation import ProtocolError, valid_interface
-from tests.students.packages import crates, greeter
+from tests.exercises.launching.crates import students as crates
+from tests.exercises.packages.greeter import students as greeter
 
 
 def encoded(files):

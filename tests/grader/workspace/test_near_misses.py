@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from grader.marking.judge.patrol_faults import FAULTS, FILES, with_one_fault_less
+from grader.exercises.launching.patrol.answers import FAULTS, FILES, with_one_fault_less
 from grader.workspace.near_misses import commas, corrected, entry_points, executables, judge_only
 
 SETUP = "station/setup.py"
@@ -62,7 +62,7 @@ def test_two_faults_and_none_are_left_as_they_are():
 
 
 def test_a_correction_that_students_do_not_have_corrects_nothing_there():
-    name = "grader.marking.judge.patrol_faults"
+    name = "grader.exercises.launching.patrol.answers"
     assert corrected(broken(FAULTS[0]), [judge_only(f"{name}:with_one_fault_less")]) == broken()
     assert corrected(broken(FAULTS[0]), [judge_only(f"{name}_of_students:with_one_fault_less")]) is None
 

@@ -4,8 +4,8 @@ import pytest
 
 from grader.workspace.package_xml import CMAKE, parse_package_xml
 from grader.workspace.sources import InvalidFiles
-from tests.students.packages import crates
-from tests.students.packages.greeter import RIGHT
+from tests.exercises.launching.crates import students as crates
+from tests.exercises.packages.greeter.students import RIGHT
 
 XML = RIGHT["greeter/package.xml"]
 PLACE = "ws/src/greeter/package.xml"

@@ -9,8 +9,8 @@ from grader.marking.build_process import builder
 from grader.marking.build_process.build_request import request_build
 from grader.marking.sandbox import Sandbox
 from sim.ros.remote import Wire
+from tests.exercises.packages.greeter.students import RIGHT
 from tests.patience import PATIENCE
-from tests.students.packages.greeter import RIGHT
 
 FAILED = (
     r"colcon build (failed\.|ended unexpectedly\. "

@@ -8,9 +8,9 @@ from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import MarkingTask
+from tests.exercises.packages.greeter import students as greeter
 from tests.marking.student_processes import USUAL
 from tests.marking.tiny import answer, grade
-from tests.students.packages import greeter
 
 SETUP = "greeter/setup.py"
 WRITES = "%%writefile ws/src/greeter/greeter/hello.py\n"

@@ -7,17 +7,17 @@ from grader.marking.pool import Pool
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import MarkingTask
+from tests.exercises.testing.launch_test.students import RIGHT, LeavesItRunning
 from tests.marking.student_processes import USUAL
 from tests.marking.tiny import answer, grade
-from tests.students.packages.launch_test import RIGHT, LeavesItRunning
 
 
 @pytest.mark.soak
 def test_a_launch_test_is_marked_in_the_sandbox(tmp_path):
     cells = [
-        nbformat.v4.new_code_cell("from grader.exercises import packages", id="setup"),
+        nbformat.v4.new_code_cell("from grader.exercises import testing", id="setup"),
         answer("launch_test", "# yours"),
-        grade("launch_test-points", 6, 'packages.launch_test.grade("ws")'),
+        grade("launch_test-points", 6, 'testing.launch_test.grade("ws")'),
     ]
     release = Release("11_tiny", {"tiny": nbformat.v4.new_notebook(cells=cells)})
     tasks = []

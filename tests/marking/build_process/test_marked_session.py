@@ -7,9 +7,9 @@ from grader.marking.pool import Pool
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import MarkingTask
+from tests.exercises.packages.session import students as session
 from tests.marking.student_processes import USUAL
 from tests.marking.tiny import answer, grade
-from tests.students.packages import session
 
 WRITES = "%%writefile ws/src/watchman/session.txt\n"
 

@@ -136,11 +136,14 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
         "usage: python -m grader mark ASSIGNMENT | --check [--help]\n"
+        "       python -m grader mark-one SUBMISSION --assignment NAME [--help]\n"
         "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
         "       python -m grader hub [--check] [--help]\n"
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
         "       python -m grader collect ARCHIVE.zip [--help]\n"
         "       python -m grader grades ASSIGNMENT [--help]\n"
+        "       python -m grader platform gradescope|... ASSIGNMENT [--help]\n"
+        "       python -m grader likeness ASSIGNMENT [--help]\n"
         "       python -m grader receipts --issuer TEXT [--help]\n"
         "       python -m grader verify RECEIPT [--help]\n"
     )

@@ -25,9 +25,10 @@ from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import MarkingTask
+from tests.exercises.launching.crates import students as crates
+from tests.exercises.packages.greeter import students as greeter
 from tests.marking.hostile.corpus import SECRET, block, blocks
 from tests.marking.tiny import answer, grade
-from tests.students.packages import crates, greeter
 
 PAGE = Path(__file__).with_name("packages.txt")
 SETUP, NODE = "greeter/setup.py", "greeter/greeter/hello.py"
@@ -37,10 +38,10 @@ RELEASE = Release(
     {
         "small": nbformat.v4.new_notebook(
             cells=[
-                nbformat.v4.new_code_cell("from grader.exercises import packages", id="setup"),
+                nbformat.v4.new_code_cell("from grader.exercises import launching, packages", id="setup"),
                 answer("own", "# yours"),
                 grade("greeter-points", 16, 'packages.greeter.grade("ws")'),
-                grade("crates-points", 20, 'packages.crates.grade("ws")'),
+                grade("crates-points", 20, 'launching.crates.grade("ws")'),
             ]
         )
     },

@@ -68,6 +68,11 @@ def test_a_cell_that_changes_something_is_run(more):
     assert left_out(f"{SEE}\n{more}") == []
 
 
+def test_a_source_that_is_shown_is_left_out():
+    source = "print(inspect.getsource(topics.OneMeter))"
+    assert left_out("import inspect", source) == [source]
+
+
 def test_what_only_makes_something_is_run():
     assert left_out(SETUP, NODE, "import math", "it = plot(1, 1)", "def f():\n    return recording") == []
 

@@ -9,18 +9,18 @@ from grader.marking.pool import Pool
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import MarkingTask
+from tests.exercises.launching.keeper import students as keeper
 from tests.marking.tiny import answer, grade
-from tests.students.packages import keeper
 
 RELEASE = Release(
     "11_small",
     {
         "small": nbformat.v4.new_notebook(
             cells=[
-                nbformat.v4.new_code_cell("from grader.exercises import packages", id="setup"),
+                nbformat.v4.new_code_cell("from grader.exercises import launching", id="setup"),
                 answer("own", "# yours"),
-                grade("crates-points", 20, 'packages.crates.grade("ws")'),
-                grade("keeper-points", 14, 'packages.keeper.grade("ws")'),
+                grade("crates-points", 20, 'launching.crates.grade("ws")'),
+                grade("keeper-points", 14, 'launching.keeper.grade("ws")'),
             ]
         )
     },

@@ -72,6 +72,13 @@ def test_students_get_no_solution_no_test_no_marking_and_nothing_of_a_class(hand
     assert [name for name in handout if re.search(r"__pycache__|\.egg-info|checkpoints|/build/", name)] == []
 
 
+def test_students_get_an_exercise_without_its_answers(handout):
+    answers = {path.relative_to(ROOT).as_posix() for path in ROOT.glob("grader/exercises/*/*/answers.py")}
+    assert answers and answers.isdisjoint(handout)
+    beside = {f"{name.rpartition('/')[0]}/__init__.py" for name in answers}
+    assert beside <= set(handout)
+
+
 def test_the_starters_are_those_of_the_release_where_no_answer_can_be_read(handout):
     released = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "exercises").glob("*/*")}
     starters = {name: text for name, text in handout.items() if name.startswith("exercises/")}

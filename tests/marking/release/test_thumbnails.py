@@ -34,7 +34,6 @@ def test_the_picture_of_a_lesson_is_that_of_its_goal(name):
     [
         ("run(A).replay(speed=2)", ("run(A)", "world")),
         ("recording = run(A)\nplot_graph(recording)", ("recording", "graph")),
-        ("plot_logs(run(A))", ("run(A)", "log")),
         ("animate(run(A), speed=2)", ("run(A)", "world")),
     ],
 )
@@ -48,8 +47,8 @@ def test_a_lesson_without_a_goal_is_named():
         thumbnails.find_goal("99_new", lesson("x = 1", "print(x)", ""))
     assert str(error.value) == f'99_new has no picture: a cell whose id begins with "goal" {must}'
     with pytest.raises(CommandFailed) as error:
-        thumbnails.find_goal("02_topics/lesson", lesson("plot_graph(x)"))
-    assert str(error.value) == f"02_topics/lesson has no picture: the cell 'together-run' {must}"
+        thumbnails.find_goal("02_topics/connecting", lesson("plot_graph(x)"))
+    assert str(error.value) == f"02_topics/connecting has no picture: the cell 'together-topics' {must}"
 
 
 def test_a_goal_that_cannot_be_run_is_reported(tmp_path, monkeypatch, capsys):

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from grader.marking.errors import SandboxFailed, SandboxMissing
-from grader.marking.sandbox import Sandbox, bubblewrap, warm_process
+from grader.marking.sandbox import Sandbox, bubblewrap, separate_user, warm_process
 from tests.marking.sandbox.commanded import sandbox
 from tests.marking.sandbox.machines import in_a_system_with
 from tests.patience import until
@@ -13,13 +13,28 @@ from tests.patience import until
 UNSAFE = ", or mark with `--unsafe`, which lets students' code read and change all your files."
 
 
+NOT_ROOT = "import os; os.geteuid = lambda: 1000; "  # who could make separate users
+
+
 def test_without_bubblewrap_it_says_how_to_get_it(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
     with pytest.raises(SandboxMissing) as caught:
         sandbox()
     assert str(caught.value) == (
         "Marking runs students' code in a sandbox made by bubblewrap, and this machine has no `bwrap`: "
         "install it with `sudo apt install bubblewrap`" + UNSAFE
+    )
+
+
+def test_to_root_it_says_why_separate_users_do_not_work_either(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("os.geteuid", lambda: 0)
+    monkeypatch.setattr(separate_user, "_try_as_user", lambda visible, hidden: "other users can't read /x")
+    with pytest.raises(SandboxMissing) as caught:
+        sandbox()
+    assert str(caught.value).endswith(
+        f"{UNSAFE} Separate users don't work either: other users can't read /x."
     )
 
 
@@ -35,7 +50,7 @@ def test_on_another_architecture_it_says_where_to_mark(monkeypatch):
 
 @pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, and none inside
 def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespaces):
-    attempt = "from tests.marking.sandbox.commanded import sandbox; sandbox()"
+    attempt = NOT_ROOT + "from tests.marking.sandbox.commanded import sandbox; sandbox()"
     done = in_a_system_with(namespaces, attempt)
     error = done.stderr.splitlines()[-1]
     assert error.startswith(

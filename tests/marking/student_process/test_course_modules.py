@@ -66,16 +66,10 @@ THERE = {
     "checks.frames": ("Broadcast between", "which transforms were published when"),
     "checks.interface_definitions": ("InterfacePart _form _lines _part _read _reason read_definition",
                                      "reads what a student wrote"),
-    "checks.ci_workflow": ("_action _commands _fails_with_a_test _has_files _has_ros _names _ready_made "
-                           "_runs_in_order _sources_ros _steps _tests_found read_workflow require_tests",
-                           "reads what a student wrote"),
-    "checks.cmake_lists": ("Blocks CMakeCommand _all_hold _holds _is_simple _is_true _put_in _split _tokens "
-                           "_unread _written read_commands", "reads what a student wrote"),
     "checks.joints": ("JointLimits _cross _filled", "a margin to limits, and points between points"),
     "checks.logs": ("_pace", "the pace of log lines"),
     "checks.mistakes": ("usual_mistake", "compares with wrong formulas"),
     "checks.motion": ("distances_to_line", "how far a path was from a line"),
-    "checks.navigation": ("to_go", "needs a World"),
     "checks.packages": ("_requires_short_output build_warnings hiding imports names_used parsed "
                         "starts_a_node",
                         "reads what a student wrote"),
@@ -83,37 +77,52 @@ THERE = {
     "checks.shift": ("Shift _statuses _touched", "counts what was delivered"),
     "checks.topics": ("longest_pause", "a pause between stamps"),
     "checks.twists": ("speeds_text", "words of a miss"),
-    "companions.crash_reports": ("CrashReport _constants _is_on_a_robot _lines _name _own_places _place "
-                                 "_report _run crash_reports", "needs the private seed"),
-    "companions.crates": ("crates", "the judge starts these; here they lack all that they use"),
-    "companions.scripted_orders": ("Script ScriptedOrder Situation situations", "needs the private seed"),
-    "companions.silent_systems": ("_misspelt cases", "needs the private seed"),
-    "companions.speakers": ("QuestionPublisher Speaker plans speakers", "needs the private seed"),
+    "exercises.silence.crash.crash_reports": (
+        "CrashReport _constants _is_on_a_robot _lines _name _own_places _place "
+        "_report _run crash_reports", "needs the private seed",
+    ),
+    "exercises.launching.keeper.crates": (
+        "crates", "the judge starts these; here they lack all that they use",
+    ),
+    "exercises.delivery.decide.scripted_orders": (
+        "Script ScriptedOrder Situation situations", "needs the private seed",
+    ),
+    "exercises.silence.doctor.silent_systems": (
+        "_misspelt cases", "needs the private seed",
+    ),
+    "exercises.silence.graph.speakers": (
+        "QuestionPublisher Speaker plans speakers", "needs the private seed",
+    ),
     "diagnosis.activity": ("_times", "words of a hint"),
     "diagnosis.driving": ("VelocityCommand _command_text", "words of a hint"),
-    "geometry.floor": ("far_from points_of", "given: lesson 13 has them, too"),
-    "geometry.ground": ("Ground drivable ground shortest", "draws worlds; needs a World"),
+    "geometry.floor": ("away_from points_of", "given: lesson 13 has them, too"),
+    "geometry.ground": ("Ground _existing drivable ground shortest", "draws worlds; needs a World"),
     "geometry.near": ("is_near", "compares two numbers"),
     "geometry.occupancy": ("cells_of", "the cells of a grid"),
     "geometry.pose": ("Pose2D", "draws worlds; its two formulas are in lesson 9"),
     "responses.window": ("Window", "times"),
     "workspace.interfaces": ("type_hash", "reads what was built"),
-    "worlds.crossing": ("in_view", "draws worlds; needs a World"),
+    "exercises.delivery.perceive.crossing": (
+        "in_view", "draws worlds; needs a World",
+    ),
 }
-# What earned the points of 6.1, 6.4, 11.6, 12.1 and 13.1 when it was handed in.
+# What earned the points of 6.1, 6.4, 11b.3, 12.1 and 13.1 when it was handed in.
 TRICKS = {
     "navigator": [
         "from grader.exercises.navigator.compass import _bearing, _distance",
         "import grader.geometry.ground",
         "from grader.exercises.delivery import Floor",
     ],
-    "packages": [
-        "from grader.companions.patrol_package import FILES",
-        "from grader.marking.judge.patrol_faults import FILES",
-        "from grader.companions.crates import INTERFACES",
-        "packages.keeper.uses.definitions['msg/Crate.msg']",
+    "launching": [
+        "from grader.exercises.launching.patrol.patrol_package import FILES",
+        "from grader.exercises.launching.patrol.answers import FILES",
+        "from grader.exercises.launching.keeper.crates import INTERFACES",
+        "launching.keeper.uses.definitions['msg/Crate.msg']",
     ],
-    "safety": ["from grader.companions.speed_candidates import _right", "safety.workshop(1)[0].args"],
+    "safety": [
+        "from grader.exercises.safety.mutants.speed_candidates import _right",
+        "safety.workshop(1)[0].args",
+    ],
     "delivery": ["from grader.exercises.delivery.blueprint import TOPICS", "delivery.blueprint.TOPICS"],
 }
 ERRORS = "ModuleNotFoundError", "ImportError", "IndexError", "AttributeError", "KeyError"
@@ -190,7 +199,7 @@ def test_classes_that_stay_with_the_judge_have_no_methods_there(start_student, t
     student = start_student(packages=[f"grader.exercises.{topic}"])
     there = student.text(FUNCTIONS.format(names=[])).splitlines()
     homes = {line.partition(" ")[0] for line in there if line.startswith(CLOSED) and "<lambda>" not in line}
-    assert not {"grader.exercises.navigator.compass", "grader.geometry.scan_sectors"} & homes
+    assert not {"grader.exercises.navigator.compass", "grader.exercises.sensing.sectors.scan_sectors"} & homes
     assert ("grader.geometry.floor" in homes) == (topic == "delivery")
 
 

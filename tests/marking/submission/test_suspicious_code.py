@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[3]
         *(
             (source, f"imports `{module}`, which is inside the course's own machinery")
             for source, module in [
-                ("from grader.companions.bench import Bench", "grader.companions.bench"),
+                ("from grader.exercises.safety.mutants import bench", "grader.exercises.safety.mutants"),
                 ("from grader import companions", "grader.companions"),
                 ("import grader.exercises.safety.mutants", "grader.exercises.safety.mutants"),
                 ("from grader.exercises.safety.mutants import ENOUGH", "grader.exercises.safety.mutants"),
@@ -111,11 +111,10 @@ def test_nothing_in_the_course_is_suspicious(folder):
 
 def test_no_answer_of_the_score_tables_is_suspicious():
     """But for companions and the faults of a package, of which the tests make some answers."""
-    made_of = "imports `grader.companions.", "imports `grader.marking.judge.patrol_faults`"
-    for path in (ROOT / "solutions").glob("*/"):
-        for file in (ROOT / "tests" / "students" / path.name.partition("_")[2]).glob("*.py"):
-            found = find_suspicious_code([(file.stem, file.read_text())])
-            assert [one for one in found if not any(part in one for part in made_of)] == []
+    made_of = "imports `grader.companions.", "imports `grader.exercises."
+    for file in (ROOT / "tests" / "exercises").glob("*/*/students.py"):
+        found = find_suspicious_code([(file.parent.name, file.read_text())])
+        assert [one for one in found if not any(part in one for part in made_of)] == []
 
 
 def test_every_trick_with_code_that_only_a_cheat_needs_is_named():

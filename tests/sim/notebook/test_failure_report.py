@@ -82,10 +82,11 @@ def test_the_report_is_red_and_legible_without_a_style_sheet(failed):
     assert "<strong>ValueError: x &lt; 0 &amp; y (in Talker.tick, line 7, at 1 s)</strong></div>" in page
 
 
-def test_code_in_a_line_is_shown_as_code():
+def test_code_in_a_line_is_shown_as_code_in_the_color_of_the_box():
+    code = '<code style="color: inherit; background: none">'
     page = failure_report.failure_html(["A `<main>()` ends.", "Hint: write `a`, or `b`."])
-    assert "<strong>A <code>&lt;main&gt;()</code> ends.</strong>" in page
-    assert "<br>Hint: write <code>a</code>, or <code>b</code>.</div>" in page
+    assert f"<strong>A {code}&lt;main&gt;()</code> ends.</strong>" in page
+    assert f"<br>Hint: write {code}a</code>, or {code}b</code>.</div>" in page
 
 
 def test_a_terminal_shows_it_in_red_and_a_file_does_not(failed, monkeypatch, capsys):

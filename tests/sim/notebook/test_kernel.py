@@ -100,6 +100,17 @@ sim.suggestions.unknown_name("a", "b", ["c"])"""
     assert "mine" in own and "You interrupted" not in own
 
 
+def test_a_package_that_the_course_itself_lacks_is_no_interrupt(kernel):
+    kernel.run(SETUP, "setup")
+    lacks = """
+import sim.suggestions
+def lacking(*more): import zzz
+sim.suggestions.closest_match = lacking
+sim.suggestions.unknown_name("a", "b", ["c"])"""
+    shown = kernel.run(lacks, "use")
+    assert "No module named 'zzz'" in shown and "You interrupted" not in shown
+
+
 def test_a_misspelt_class_and_an_object_for_a_class_are_named_in_one_line(kernel):
     for cell, code in {"setup": SETUP, "answer": ROBOT}.items():
         kernel.run(code, cell)

@@ -73,6 +73,7 @@ CASES = {
 }  # fmt: skip
 OWN_PROCESS = __name__ == "__main__"
 JOINS = 1.0  # s: when the listener of a case on durability, or of a late joiner, makes its subscription
+HEARTBEAT = "at once, or with the writer's heartbeat within 3 s"  # both occur, on an idle machine, too
 SLEEPS = 0.8  # s: in the callback of a message, or of the first one where the history is measured
 
 
@@ -172,7 +173,8 @@ def heap(_: Node, publisher: object) -> None:
 def wait(_: Node, publisher: object) -> None:
     begin = time.time()
     done = publisher.wait_for_all_acked(Duration(seconds=5))
-    say(f"all acknowledged: {done}, after {time.time() - begin:.1f} s")
+    waited = time.time() - begin
+    say(f"all acknowledged: {done},", HEARTBEAT if waited < 3.3 else f"after {waited:.1f} s")
 
 
 def leave(node: Node, _: object) -> None:

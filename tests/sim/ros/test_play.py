@@ -54,8 +54,11 @@ PROGRAMS = [
     for name, thing in vars(module).items()
     if name not in SLOW and runnable(thing, module)
 ]
+DAILY = {services.await_reentrant}  # no node offers its service, which once looked blocked in slices only
 PARTS = [  # every day a third of them: in each module are some
-    pytest.param(thing, id=thing.__qualname__, marks=[pytest.mark.soak] if number % 3 else [])
+    pytest.param(
+        thing, id=thing.__qualname__, marks=[pytest.mark.soak] if number % 3 and thing not in DAILY else []
+    )
     for number, thing in enumerate(PROGRAMS)
 ]
 

@@ -7,6 +7,8 @@ from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_msgs.msg import String
 
+from grader.companions.joint_targets import gymnast
+from grader.worlds.arms import arm_of
 from sim import World
 from sim.world import LidarModel
 from tests.sim.ros.playing import player, to_the_end, watched
@@ -108,3 +110,37 @@ def test_a_machine_shows_its_joints():
     assert numbers == ("slider_joint", "pole_joint")
     units = {value.split()[1] for state in picture.states for _, value in state["numbers"]}
     assert units == {"m", "rad"}
+
+
+class Rams(Circle):
+    """Drives into the wall ahead, after 20 s back for 2 s, and stops."""
+
+    ticks = 0
+
+    def tick(self):
+        self.ticks += 1
+        twist = Twist()
+        twist.linear.x = 0.5 if self.ticks < 200 else -0.2 if self.ticks < 220 else 0.0
+        self.publisher.publish(twist)
+
+
+def test_a_contact_shows_as_long_as_it_lasts_and_shortly_after():
+    made = player(Rams, world="room", seconds=30.0, speed=10.0)
+    picture = watched(made)
+    to_the_end(made)
+    (touch, *_) = made.recording.contacts
+    states = [(state["stamp"], state["touching"]) for state in picture.states if state["ended"] is None]
+    assert not any(touching for stamp, touching in states if stamp < touch.stamp)
+    assert all(touching for stamp, touching in states if touch.stamp + 0.2 < stamp < 20.0)
+    assert not any(touching for stamp, touching in states if stamp > 25.0)
+    assert dict(picture.states[-2]["numbers"])["contacts"].startswith("1, at ")
+
+
+def test_joints_are_drawn_by_their_names():
+    made = player(*gymnast(1), world=arm_of(1), seconds=6.0, speed=10.0)
+    picture = watched(made)
+    picture.on_command({"topic": "/joint_states"})
+    to_the_end(made)
+    curves = [state["topic"]["curves"] for state in picture.states if state["topic"]][-1]
+    assert {curve["name"] for curve in curves} == {"elbow_joint position", "shoulder_joint position"}
+    assert all(len(curve["points"]) > 10 for curve in curves)

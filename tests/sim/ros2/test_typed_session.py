@@ -281,3 +281,55 @@ def test_a_lenient_run_types_it_as_it_was_meant(prefix, text):
     assert not [row for row in plain.messages("/cmd_vel") if row.sender == "/driver"]
     lenient = run(replace(program, lenient=True), world="room", seconds=20, quiet=True, expect_error=True)
     assert len([row for row in lenient.messages("/cmd_vel") if row.sender == "/driver"]) > 20
+
+
+CREATE = "ros2 pkg create --build-type ament_python --node-name hello greeter --dependencies rclpy"
+
+
+def test_a_package_is_created_built_and_started(typed):
+    text = f"cd ws/src\n{CREATE}\n{CREATE}\ncd ..\ncolcon build\nsource install/setup.bash\n"
+    text += "export ROS_DOMAIN_ID=42\nros2 run greeter hello\nros2 pkg executables greeter\n"
+    lines = shown(typed(text))
+    created = lines[lines.index("going to create a new package") :]
+    assert created[1:3] == ["package name: greeter", "destination directory: /home/you/ws/src"]
+    assert {"build type: ament_python", "dependencies: ['rclpy']", "node_name: hello"} < {*created}
+    assert "creating ./greeter/greeter/hello.py" in created
+    assert lines[-5:] == [
+        "terminal 1, line 7 $ export ROS_DOMAIN_ID=42",
+        "terminal 1, line 8 $ ros2 run greeter hello",
+        "Hi from greeter.",
+        "terminal 1, line 9 $ ros2 pkg executables greeter",
+        "greeter hello",
+    ]
+    second = lines.index(f"terminal 1, line 3 $ {CREATE}")
+    assert lines[second + 2 : second + 5] == [
+        "The directory already exists: ./greeter",
+        "Either remove the directory or choose a different destination directory or package name",
+        "[line 3 failed]",
+    ]
+    assert "Summary: 2 packages finished" in lines
+    lines = shown(typed("cd ws\ncolcon build\n"))
+    assert lines[-1] == "Summary: 1 package finished", "the next session begins without it"
+
+
+CREATED = {
+    f"{SET_UP}cd src\n{CREATE}\nros2 run greeter hello": "Package 'greeter' not found: it is not built",
+    f"{SET_UP}cd src\n{CREATE}\ncd ..\ncolcon build\nros2 run greeter hello": (
+        "Package 'greeter' not found: source ws/install/setup.bash again, because it was built later"
+    ),
+    f"{CREATE}\ncd ws\ncolcon build --packages-select greeter": (
+        "Summary: 0 packages finished: there is no package 'greeter'"
+    ),
+    "ros2 pkg create": "ros2 pkg create: error: the following arguments are required: package_name",
+    "ros2 pkg create ../x": "'../x' is no name: use letters, digits and underscores",
+}
+
+
+@pytest.mark.parametrize("text", CREATED)
+def test_a_line_about_a_new_package_that_fails_is_reported(typed, text):
+    lines = shown(typed(text))
+    assert (lines[-2], lines[-1]) == (CREATED[text], f"[line {text.count(chr(10)) + 1} failed]")
+
+
+def test_the_help_of_pkg_create_is_no_failure(typed):
+    assert shown(typed("ros2 pkg create --help"))[-1] != "[line 1 failed]"

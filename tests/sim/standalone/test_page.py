@@ -106,7 +106,8 @@ def test_only_its_own_page_drives(page):
 
 @pytest.mark.parametrize("body", [
     "", "{", "[" * 199, '{"drive": [1]}', '{"drive": [1, NaN]}', '{"drive": [2, 0]}', '{"stop": true}',
-    '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 400,
+    '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 2000,
+    '{"shown": ["/tf", 3]}', '{"shown": ["/tf"' + ', ""' * 20 + "]}",
 ])  # fmt: skip
 def test_what_is_no_command_is_refused(page, body):
     assert request(page, "POST", "/command", body, Origin=own(page)) == BAD
@@ -127,9 +128,9 @@ def stream(page):
 
 
 def test_frames_come_as_they_are_shown_and_end_with_the_robot(page):
-    page.show(b"\x00\x01\x02")
+    page.show(b"\x00\x01\x02", [{"topic": "/tf"}])
     frames = stream(page)
-    assert frames.readline() == b"data: " + base64.b64encode(b"\x00\x01\x02") + b"\n"
+    assert frames.readline() == b'data: ["AAEC", [{"topic": "/tf"}]]\n'
     page.close()
     assert frames.read() == b"\n"
 
@@ -140,7 +141,7 @@ def test_a_changed_status_is_sent_with_the_next_frame_and_to_later_pages(page):
         with contextlib.closing(stream(page)) as frames:
             page.show(b"")
             lines = [frames.readline() for _ in range(4)]
-        assert lines == [b"event: status\n", b'data: {"drawn": 3}\n', b"\n", b"data: \n"]
+        assert lines == [b"event: status\n", b'data: {"drawn": 3}\n', b"\n", b'data: ["", []]\n']
 
 
 def test_so_many_may_look_and_no_more(page):
@@ -201,14 +202,20 @@ def test_the_page_has_the_panel_of_the_notebook_and_connects_again_by_itself(bro
         faults = []
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(address)
-        assert page.locator(".legend").inner_text().split() == ["room", "★", "goal", "■", "obstacle"]
+        assert page.locator(".legend").inner_text().split()[:5] == ["room", "★", "goal", "■", "obstacle"]
         number = page.locator(".numbers div", has_text="nearest")
         expect(number.locator("dd")).to_have_text(re.compile(r"\d\.\d\d m"))
         expect(page.locator(".topic", has_text="/scan")).to_contain_text("Hz")
-        page.get_by_role("button", name="/odom").click()
+        page.locator("button.topic", has_text="/odom").click()
         expect(page.locator(".looked pre")).to_contain_text("child_frame_id: base_link")
         expect(page.locator(".looked")).to_contain_text("nav_msgs/msg/Odometry")
         page.screenshot(path=ARTIFACTS / "standalone-panel.png", full_page=True)
+        page.locator(".legend button.layer", has_text="/tf").click()  # its frames have red and green axes
+        has_red = f"({COLORS})(document.querySelector('.stage canvas')).includes('c92a2a')"
+        page.wait_for_function(f"() => {has_red}")
+        page.screenshot(path=ARTIFACTS / "standalone-layers.png", full_page=True)
+        page.locator(".legend button.layer", has_text="/tf").click()
+        page.wait_for_function(f"() => !{has_red}")
         port = address.rpartition(":")[2]
         assert running.stop() == (0, "")
         text = "The robot's program has ended. When it is started again, this page connects to it by itself."
@@ -270,7 +277,9 @@ def test_a_frame_holds_stamp_poses_and_scan():
         connection.request("GET", "/frames")
         lines = iter(connection.getresponse().readline, b"")
         line = next(line for line in lines if line.startswith(b"data: ") and b"{" not in line)
-        raw = base64.b64decode(line.removeprefix(b"data: "))
+        frame, layers = json.loads(line.removeprefix(b"data: "))
+        raw = base64.b64decode(frame)
+        assert layers == []
         floats = struct.unpack(f"<{len(raw) // 4}f", raw)
         assert len(floats) == 1 + 3 + 3 + 360
         assert floats[1:7] == (0.0,) * 6

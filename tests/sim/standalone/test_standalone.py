@@ -21,7 +21,7 @@ World 'yard' in real time, ROS domain {domain}, this machine only.
 
 In another terminal:
   export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
-  python my_node.py        # or, where ROS 2 is installed: ros2 topic list
+  python my_node.py        # or ros2 topic list, as in JupyterLab's terminals
 
 """
 NO_NUMBER = (

@@ -1,4 +1,7 @@
 import math
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from sim.view import live_view
 from sim.view.live_view import LiveView, parse_command
 from sim.view.replay import Replay
 from sim.world import Scan
+from tests.patience import PATIENCE
 
 STATE = {"stamp": 1.0, "speed": 1.0, "pace": 1.0, "paused": False}
 STATE |= {"topics": [], "contacts": [], "ended": None}
@@ -202,3 +206,19 @@ def test_fifty_views_leave_no_widget():
     for _ in range(50):
         LiveView(World.load("room")).close()
     assert len(widget._instances) == before
+
+
+def test_colab_shows_widgets_that_are_not_its_own(tmp_path):
+    """By a module with the one function of Colab's that is called."""
+    (tmp_path / "google" / "colab").mkdir(parents=True)
+    output = "def enable_custom_widget_manager(): print('enabled')"
+    (tmp_path / "google" / "colab" / "output.py").write_text(output)
+    path = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+    done = subprocess.run(
+        [sys.executable, "-c", "import sim.view.live_view"],
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+    assert (done.stdout, done.stderr) == ("enabled\n", "")

@@ -5,10 +5,11 @@ import math
 import pytest
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 from sim import run
-from sim.evidence import Message
+from sim.evidence import Message, Pose
 from sim.ros.messages.codec import encode
 from sim.view import replay_data
 from sim.view.last_event import last_event
@@ -16,6 +17,7 @@ from sim.view.packing import inflated
 from sim.view.replay_data import pack
 from sim.view.replay_values import MESSAGES, inspected, strip_of
 from tests.grader.recordings import driven, published, recording
+from tests.grader.warehouse import order, worked
 
 
 class Stops(Node):
@@ -93,6 +95,14 @@ def test_the_messages_of_a_topic_are_there_as_text_with_what_can_be_plotted(driv
     assert values[-1] == pytest.approx(drive.path[-1].x, abs=0.01)
 
 
+def test_a_joint_has_a_curve_of_its_own_though_several_drivers_publish():
+    arm = [JointState(name=["elbow_joint", "slider"], position=[n / 10, 2.0]) for n in range(3)]
+    gripper = JointState(name=["gripper_joint"], position=[0.04])
+    sent = [(0.0, arm[0]), (1.0, gripper), (2.0, arm[1]), (3.0, arm[2])]
+    (found,) = inspected(published("/joint_states", sent, seconds=4.0), ["/joint_states"])
+    assert found["curves"] == [["elbow_joint position", [0.0, None, 0.1, 0.2]]]
+
+
 def test_messages_that_are_no_messages_are_left_out():
     broken = Message(1.0, "/a", "std_msgs/msg/String", "/a", b"")
     good = Message(2.0, "/a", "std_msgs/msg/String", "/a", encode(String(data="b")))
@@ -143,3 +153,18 @@ def test_a_replay_has_the_key_of_its_run(drive):
 def test_what_moves_by_less_than_a_millimeter_rests():
     path = [(0, 0), (1, 0), *[(1 + math.sin(n) * 1e-4, 0) for n in range(10)]]
     assert last_event(driven(path)) == 0.0
+
+
+def test_a_warehouse_shows_what_the_robot_carries_what_waits_and_what_was_delivered():
+    orders = [order(1, waiting=1.0, picked_up=3.0, delivered=6.0, robot="robot"), order(2, waiting=2.0)]
+    way = [Pose(float(second), 0.0, 0.0, 0.0) for second in range(9)]
+    rows = unpacked(strip_of(worked(*orders, path=way, seconds=8.0)))
+    shown = [(stamp, row["carries"], row["orders waiting"], row["delivered"]) for stamp, row in rows]
+    assert shown[0] == (0.0, "nothing", "0", "0")
+    assert shown[2] == (2.0, "nothing", "2", "0")
+    assert shown[4] == (4.0, "order 1", "1", "0")
+    assert shown[8] == (8.0, "nothing", "1", "1")
+
+
+def test_other_worlds_have_no_orders(drive):
+    assert "carries" not in strip_of(drive)["labels"]

@@ -246,6 +246,19 @@ def pauses_at_the_end():
         raise ValueError("after the pause") from None
 
 
+class Impatient(Counter):
+    """Ends itself, as Ctrl-C would."""
+
+    def tick(self):
+        super().tick()
+        raise KeyboardInterrupt
+
+
+def interrupts_itself():
+    rclpy.init()
+    rclpy.spin(Impatient())
+
+
 def says_goodbye():
     rclpy.init()
     node = Counter()

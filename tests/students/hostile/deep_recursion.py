@@ -2,7 +2,7 @@
 
 # %% after square
 nested = []
-for _ in range(10_000_000):
+for _ in range(1_000_000):
     nested = [nested]
 del nested
 import sys

@@ -64,12 +64,12 @@ class Follower(Node):
 
     def send(self, message):
         future = self.client.send_goal_async(message, feedback_callback=self.on_feedback)
-        future.add_done_callback(self.on_answer)
+        future.add_done_callback(self.on_response)
 
     def on_feedback(self, message):
         pass
 
-    def on_answer(self, future):
+    def on_response(self, future):
         handle = future.result()
         self.say("accepted" if handle.accepted else "rejected")
         if handle.accepted:
@@ -149,10 +149,10 @@ class ChangesItsMind(Follower):
         super().__init__()
         self.later(0.5, self.change)
 
-    def on_answer(self, future):
+    def on_response(self, future):
         if not hasattr(self, "first"):
             self.first = future.result()
-        super().on_answer(future)
+        super().on_response(future)
 
     def change(self):
         self.send(STEADY)

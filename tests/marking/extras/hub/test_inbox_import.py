@@ -176,3 +176,19 @@ def test_a_student_without_a_unix_user_is_named(inboxes):
     (inboxes.root / "alice").rename(inboxes.root / "a-former-student")
     notices = import_submissions(inboxes.root, "ros2", inboxes.inbound)
     assert notices[0] == "a-former-student: there is no Unix user of this name"
+
+
+@pytest.mark.parametrize("text", ["", None])
+def test_a_submission_that_is_still_being_copied_waits_until_it_is_whole(inboxes, text):
+    folder = inboxes.submit("alice", **{"submission_secret.txt": text or ""})
+    if text is None:
+        (folder / "submission_secret.txt").unlink()
+    assert inboxes.take() == [
+        f"alice: `{folder.name}` is left out. It is incomplete: submission_secret.txt, which nbgrader writes "
+        "last, is missing or empty. Either it is still being copied, or the disk was full when the student "
+        "submitted."
+    ]
+    assert inboxes.taken() == {}
+    (folder / "submission_secret.txt").write_text("s3cret")
+    assert inboxes.take() == []
+    assert len(inboxes.taken()) == 1

@@ -59,6 +59,38 @@ class LateTalker(Node):
             self.out.publish(String(data=word))
 
 
+class Counter(Node):
+    """Makes a publisher after half a second, and publishes as soon as it counts a subscription."""
+
+    def __init__(self):
+        super().__init__("counter")
+        self.out = None
+        self.create_timer(0.5, self.count)
+
+    def count(self):
+        self.out = self.out or self.create_publisher(String, "words", 10)
+        count = self.out.get_subscription_count()
+        self.get_logger().info(f"{count}")
+        if count:
+            self.out.publish(String(data="a word"))
+
+
+class Counted(Node):
+    """Logs what it receives; from 1.75 s on with a second subscription."""
+
+    def __init__(self):
+        super().__init__("counted")
+        self.listen()
+        self.timer = self.create_timer(1.75, self.listen_more)
+
+    def listen(self):
+        self.create_subscription(String, "words", lambda word: self.get_logger().info(word.data), 10)
+
+    def listen_more(self):
+        self.timer.cancel()
+        self.listen()
+
+
 class LateListener(Node):
     """Listens from 2 s to 3 s to what was latched, and then again; and says what it receives."""
 

@@ -20,7 +20,8 @@ from tests.sim.ros.remote.follower_process import FollowerProcess
 
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "actions", "sensing"),
-    *("navigator", "silence", "joints", "frames", "control", "packages", "safety", "delivery"),
+    *("navigator", "silence", "joints", "frames", "control", "packages", "launching", "testing"),
+    *("safety", "delivery"),
 )
 # They use random numbers, which differ because the other process must not know the run's seed.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")
@@ -57,7 +58,7 @@ def wrong(assignment: str, exercise: str) -> list[str]:
 
 def earned(follower: FollowerProcess, assignment: str, exercise: str, name: str, secret: str = "") -> str:
     """The score of a node in the other process, in the form of a page."""
-    module = f"tests.students.{assignment}.{exercise}"
+    module = f"tests.exercises.{assignment}.{exercise}.students"
     with kept_builds(), follower.serving(module, name, secret=secret) as remote:
         score = judge(assignment, exercise).judge(RemotePrograms(remote, building.build), secret)
     return shown(name, score)
