@@ -4,7 +4,7 @@
 
 VENV ?= .venv
 BIN = $(abspath $(VENV))/bin
-INTERFACES = $(shell find ros_packages/interfaces -type f -not -path '*/__pycache__/*')
+COMPILED = $(shell find ros_packages/interfaces sim/world/rays -type f -not -path '*/__pycache__/*' -not -path '*/build/*')
 
 export PYTHON WHEELS
 # Equal runs need equal dictionary orders and equal sums on every machine.
@@ -15,7 +15,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab teach test solutions demo exercises league handout site hub bench tidy lint setup tools wheels lock clean
+.PHONY: help lab teach test solutions demo exercises league handout site hub bench tidy lint setup tools wheels release lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -62,6 +62,7 @@ bench: tools  ## print the benchmarks (make bench ARGS=scenario prints one)
 
 tidy: tools  ## normalize the notebooks, sort imports
 	$(BIN)/python -m grader.notebook_format
+	$(BIN)/python -m grader.marking.release.service_notebooks
 	$(BIN)/ruff check --fix
 
 # One spelling, the American one of ROS's names; pyproject.toml has the rest of its settings.
@@ -69,6 +70,7 @@ SPELLING = git ls-files -z | xargs -0 $(BIN)/codespell --dictionary - --dictiona
 
 lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
+	$(BIN)/mypy
 	@$(SPELLING)
 	$(BIN)/python -m grader.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
@@ -82,30 +84,33 @@ $(VENV)/.tools: .ci/tools.lock $(VENV)/.requirements
 	@sh .ci/setup $(VENV) .ci/tools.lock
 	@touch $@
 
-SOURCES = pyproject.toml .ci/setup .ci/prefix sim/absent_packages.toml $(wildcard ros_packages/cmake/*.* ros_packages/cmake/*/*) \
-    $(wildcard ros_packages/interfaces/definitions/*/*/*) $(wildcard $(addprefix sim/world/rays/,*.py *.c *.toml))
+SOURCES = pyproject.toml .ci/setup sim/absent_packages.toml $(wildcard ros_packages/cmake/*.* ros_packages/cmake/*/*) \
+    $(wildcard ros_packages/interfaces/definitions/*/*/*)
 
 $(VENV)/.requirements: requirements.lock $(SOURCES)
 	@sh .ci/setup $(VENV)
 	@touch $@
 
-$(VENV)/.interfaces: $(VENV)/.requirements $(INTERFACES)
+$(VENV)/.interfaces: $(VENV)/.requirements $(COMPILED)
 	@$(BIN)/python ros_packages/interfaces/install.py
 	@touch $@
 
-wheels: setup  ## collect all that set-up installs in wheels/: then it needs no network and no compiler
-	@$(BIN)/python .ci/wheels
+wheels: tools  ## build the course for pip in wheels/ (make wheels ARGS=--offline adds all that set-up downloads)
+	@$(BIN)/python .ci/wheels $(filter --offline,$(ARGS))
+
+release: wheels  ## build a release in dist/release/ (make release ARGS="--tag v0.1.0 --site dist/site")
+	@$(BIN)/python -m grader.marking.release.make_release $(ARGS)
 
 # Left out: jsonschema takes more than a second to import it, and checks with it what no notebook has.
 COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-emit-find-links --no-emit-package rfc3987-syntax --custom-compile-command 'make lock'
 lock: tools  ## take the newest versions into requirements.lock and its like
-	$(COMPILE) --group build pyproject.toml --output-file requirements.lock
+	$(COMPILE) --group build --extra lab pyproject.toml --output-file requirements.lock
 	$(COMPILE) --group tools --constraint requirements.lock --output-file .ci/tools.lock
 	$(COMPILE) --group hub --constraint requirements.lock --constraint .ci/tools.lock --output-file .ci/hub.lock
 	$(COMPILE) --group site --output-file .ci/site.lock
 	$(COMPILE) --group install --constraint .ci/tools.lock --output-file .ci/uv.txt
 
 clean:  ## remove the set-up and what tools left; class/, work/ and wheels/ stay
-	rm -rf .venv* *.egg-info build sim/world/rays/*.egg-info sim/world/rays/build dist test-artifacts .pytest_cache .ruff_cache
+	rm -rf .venv* *.egg-info build sim/world/rays/*.egg-info sim/world/rays/build dist test-artifacts .pytest_cache .ruff_cache .mypy_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +
