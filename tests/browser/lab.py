@@ -120,7 +120,7 @@ def copy_for_students(target: Path) -> Path:
 
 @contextmanager
 def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]:
-    """Run JupyterLab for the course in `folder`; yield its address. Log: test-artifacts/jupyterlab.log.
+    """Run JupyterLab for the course in `folder`; yield its address. Its log: `log_of(address)`.
 
     more: options for its command line. settings: the folder with its configuration.
     """
@@ -134,15 +134,20 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
     home.mkdir(exist_ok=True)
     environment = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_PATH": str(folder / settings)}
     ARTIFACTS.mkdir(exist_ok=True)
-    with open(ARTIFACTS / "jupyterlab.log", "w") as log:
+    with open(log_of(address), "w") as log:
         command = [sys.executable, "-m", "jupyterlab", *options]
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
         try:
-            _wait_until_up(f"{address}/api", process, ARTIFACTS / "jupyterlab.log")
+            _wait_until_up(f"{address}/api", process, log_of(address))
             yield address
         finally:
             process.terminate()
             process.wait(PATIENCE)
+
+
+def log_of(address: str) -> Path:
+    """Each server has its own log: tests run side by side."""
+    return ARTIFACTS / f"jupyterlab-{address.rpartition(':')[2]}.log"
 
 
 def _wait_until_up(url: str, process: subprocess.Popen, log: Path) -> None:

@@ -7,7 +7,7 @@ from contextlib import chdir
 import pytest
 
 from grader.marking.command.mark_class import Settings, mark_class
-from tests.browser.lab import ARTIFACTS, ROOT, Lab, server
+from tests.browser.lab import ROOT, Lab, log_of, server
 from tests.marking.classroom import ASSIGNMENT, classroom, submit
 from tests.marking.fake_pool import opening
 
@@ -42,7 +42,7 @@ def test_the_address_that_is_printed_leads_to_the_formgrader_and_keeps_its_token
     with pytest.raises(urllib.error.HTTPError) as led:
         urllib.request.build_opener(Stay).open(f"{address}/teach?token=abc")
     assert (led.value.code, led.value.headers["Location"]) == (302, "/lab?formgrader=true&token=abc")
-    assert f"{address}/teach\n" in (ARTIFACTS / "jupyterlab.log").read_text()
+    assert f"{address}/teach\n" in log_of(address).read_text()
 
 
 @pytest.mark.browser

@@ -13,11 +13,11 @@ from typing import Any
 
 import nbformat
 
-from grader.marking.judge.display_only_cells import RUNS
+from grader.marking.judge.display_only_cells import DISPLAYS
 from tests.exercises.score_tables import ROOT
 
 WRITES = "%%writefile "
-NOT_DONE = {"play", *RUNS}  # calls that run programs: nothing is run here
+NOT_DONE = {"play", *DISPLAYS}  # calls that run programs or show their source: nothing is run here
 
 
 @functools.cache
