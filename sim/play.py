@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from sim.evidence import Recording
@@ -19,7 +20,7 @@ from sim.world import World
 def play(
     *nodes: Any,
     world: str | World | None = None,
-    seconds: float = 10.0,
+    seconds: float | None = None,
     seed: int = 0,
     until: Callable[[Recording], bool] | None = None,
     quiet: bool = False,
@@ -27,6 +28,7 @@ def play(
     order: int | str = 0,
     speed: float = 1.0,
     expect_error: bool = False,
+    bag: str | Path | None = None,
 ) -> Player:
     """Run ROS 2 nodes as `run` does, but paced by the wall clock, to watch and drive them.
 
@@ -40,7 +42,7 @@ def play(
     raise_if_outdated(nodes)
     pace = Pace(speed)
     common = nodes, world, seconds, seed, until, quiet
-    player = Player(Session(*common, caller="play", network=network, order=order), pace)
+    player = Player(Session(*common, caller="play", network=network, order=order, bag=bag), pace)
     if in_notebook():
         from sim.view.live_view import (
             LiveView,  # imported here because it is slow, and scripts don't need Jupyter

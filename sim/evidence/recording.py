@@ -186,6 +186,25 @@ class Recording(RunData):
 
         return write(self, Path(path))
 
+    def save_bag(
+        self,
+        folder: str | Path,
+        topics: Sequence[str] = (),
+        *,
+        delay: Seconds = 0.03,
+        jitter: Seconds = 0.005,
+        begin: Seconds = 0.0,
+    ) -> str:
+        """Write messages into a folder, in place of an earlier bag, as a laptop records them with `ros2 bag`.
+
+        topics: all but ROS's own by default. delay: how long the robot's messages are on the way (s), more or
+        less `jitter`. begin: when the recording begins (s): earlier messages are missing, and latched ones,
+        too. Returns the folder. Raises BagError if it can't be made.
+        """
+        from sim.ros.bags.saving import save_bag  # here, for its libraries take a while to import
+
+        return save_bag(self, folder, topics, delay=delay, jitter=jitter, begin=begin)
+
     @staticmethod
     def load(path: str | Path) -> Recording:
         """Read a file written by `save`. Raises StorageError with one clear sentence if it isn't one."""

@@ -22,6 +22,7 @@ from sim.evidence.rows import (
     Seconds,
     UndeliveredMessage,
 )
+from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.network import Network
 from sim.world import Contact, PenDrawing, World
 
@@ -70,3 +71,4 @@ class RunData:
     node_facts: list[NodeFact] = field(default_factory=list)  # for the diagnosis; no part of the digest
     order: str = ""  # the text of the `Order` in which it ran; empty for the usual one
     departures: list[Departure] = field(default_factory=list)  # what that order made differently
+    epoch: Nanoseconds = EPOCH  # what clocks showed at the start, since 1970: another time if a bag is played

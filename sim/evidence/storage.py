@@ -37,7 +37,7 @@ _KEYS = {
     "course_errors": "failures",
 }
 # Fields that came later than the format: older files don't have them.
-ADDED = "node_facts", "order", "departures", "end_errors", "end_prints", "end_logs"
+ADDED = "node_facts", "order", "departures", "end_errors", "end_prints", "end_logs", "epoch"
 _YES = {True: "yes", False: "no"}
 _D = TypeVar("_D", bound=RunData)
 PLAIN = (float, int, str, bool, bytes, Any)
@@ -54,7 +54,7 @@ def write(recording: RunData, path: Path) -> Path:
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="sim")
-        _write_messages(writer, recording.published)
+        _write_messages(writer, recording.published, recording.epoch)
         writer.add_attachment(0, 0, ATTACHMENT, "application/json", _pack(rest))
         writer.finish()
     return path
@@ -80,7 +80,7 @@ def _unpack(data: bytes) -> dict[str, Any]:
     return rest
 
 
-def _write_messages(writer: Writer, messages: list[Message]) -> None:
+def _write_messages(writer: Writer, messages: list[Message], epoch: int) -> None:
     schemas: dict[str, int] = {}
     channels: dict[tuple[str, str, str, bool, bool], int] = {}
     for number, (stamp, topic, type_, sender, raw, from_course, early) in enumerate(messages):
@@ -90,7 +90,7 @@ def _write_messages(writer: Writer, messages: list[Message]) -> None:
         if key not in channels:
             about = {"sender": sender, "ours": _YES[from_course], "early": _YES[early]}
             channels[key] = writer.register_channel(topic, "cdr", schemas[type_], about)
-        nanoseconds = EPOCH + round(stamp * SECOND)
+        nanoseconds = epoch + round(stamp * SECOND)
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
 
 
@@ -122,9 +122,10 @@ def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
         raise StorageError(
             f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
         )
+    epoch = rest.get("epoch", EPOCH)
     published = [
         Message(
-            (message.log_time - EPOCH) / SECOND,
+            (message.log_time - epoch) / SECOND,
             channel.topic,
             schema.name,
             channel.metadata["sender"],

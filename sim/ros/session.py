@@ -8,12 +8,13 @@ import math
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 
 from sim.evidence import Ended, Recording
-from sim.nanoseconds import SECOND, Nanoseconds
+from sim.nanoseconds import EPOCH, SECOND, Nanoseconds
 from sim.network import Network
 from sim.notebook.run_programs import remember_programs
 from sim.order import Order
@@ -31,6 +32,10 @@ from sim.ros.launching.launch_program import as_launch_program
 from sim.ros.robots.world_programs import programs_of
 from sim.world import World
 
+if TYPE_CHECKING:
+    from sim.ros.bags.played import PlayedBag
+
+SECONDS = 10.0  # that a run lasts without a bag
 FOREVER: Nanoseconds = 2**63
 _turn = threading.RLock()  # a process has one of everything: runs in several threads execute in turns
 
@@ -46,7 +51,7 @@ class Session:
         self,
         nodes: tuple[Any, ...],
         world: str | World | None,
-        seconds: float,
+        seconds: float | None,
         seed: int,
         until: Callable[[Recording], bool] | None,
         quiet: bool,
@@ -54,6 +59,7 @@ class Session:
         companions: Sequence[Any] = (),
         network: Network | None = None,
         order: int | str = 0,
+        bag: str | Path | None = None,
     ) -> None:
         self._companions = [as_process(node, caller) for node in companions]
         self._specs = [as_process(as_launch_program(node), caller) for node in nodes]
@@ -62,6 +68,9 @@ class Session:
             raise RuntimeError(
                 f"{caller}() can't start another run here: this is a node of a run in progress."
             )
+        played = self._played(bag, world, caller)
+        if seconds is None:
+            seconds = SECONDS if played is None else played.seconds
         if not 0 < seconds < 1e6:
             raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
         if not isinstance(seed, int) or seed < 0:
@@ -69,8 +78,9 @@ class Session:
         if not isinstance(network, Network | None):
             raise TypeError(f"network must be a Network, such as Network(loss=0.2); it is {network!r}.")
         world = World.load(world) if isinstance(world, str) else world
+        epoch = EPOCH if played is None else played.epoch
         chosen = str(Order.parse(order) or "")
-        self.recording = Recording(world, float(seconds), seed, network=network, order=chosen)
+        self.recording = Recording(world, float(seconds), seed, network=network, order=chosen, epoch=epoch)
         remember_programs(self.recording, [spec.target for spec in self._specs])
         self.truth: GroundTruth | None = None  # while the run lasts, if it has a world
         self.engine: Engine | None = None
@@ -104,6 +114,20 @@ class Session:
     def nodes(self) -> list[Node]:
         """The nodes that exist now."""
         return [node for program in self.engine.programs for node in program.nodes] if self.engine else []
+
+    def _played(self, bag: str | Path | None, world: Any, caller: str) -> PlayedBag | None:
+        """The bag that takes the place of a world; its player is the first of the companions."""
+        if bag is None:
+            return None
+        if world is not None:
+            raise ValueError(f"{caller}() takes a world or a bag: what the robot does is in the bag already.")
+        if not isinstance(bag, str | Path):
+            raise TypeError(f'bag must be the path of a bag, such as "my_drive"; it is {bag!r}.')
+        from sim.ros.bags.played import PlayedBag  # imported here because its libraries take a while
+
+        played = PlayedBag.read(bag)
+        self._companions.insert(0, played.program())
+        return played
 
     def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
         """Do all that is due up to `limit`, or until `enough()`, which is called between steps.

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
+from sim.ros.bags.errors import BagError
 from sim.ros2.discovery_options import discovery_options
 from sim.ros2.group import USAGE_ERROR, Group, Parser, UsageError, build_parser
 from sim.ros2.system import CliError, Output, System
@@ -84,7 +85,7 @@ def execute(
     except UsageError as error:
         print_error(str(error))
         return USAGE_ERROR
-    except CliError as error:
+    except (CliError, BagError) as error:
         print_error(str(error))
         return FAILED
     except SystemExit as exit_:  # --help

@@ -11,7 +11,6 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from sim.evidence import Endpoint, Recording
 from sim.evidence.qos import offer, refusal, settings
-from sim.nanoseconds import EPOCH
 from sim.ros.engine.program import Process
 from sim.ros.play.player import FRAME, Player
 from sim.ros2.system import OWN_NAME, CliError, NodeTask, Output, ReceivedMessage, System, T, with_node
@@ -37,11 +36,10 @@ class RecordedSystem(System):
 
     finished = True
     max_messages = MAX_MESSAGES
-    epoch = EPOCH
 
     def __init__(self, recording: Recording, print_line: Callable[[str], None] = print) -> None:
         super().__init__(print_line)
-        self.recording = recording
+        self.recording, self.epoch = recording, recording.epoch
 
     @property
     def nodes(self) -> list[str]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from sim.ros2.bag_metadata import EVENTS, is_service_event
+from sim.ros.bags.contents import EVENTS, is_service_event
 from sim.ros2.group import argument, flag
 from sim.ros2.system import CliError, is_hidden
 

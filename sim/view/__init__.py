@@ -9,6 +9,7 @@ from sim.view.path_plot import plot_path
 from sim.view.plot import png, small_png
 from sim.view.prediction import predict
 from sim.view.replay import replay
+from sim.view.scans_plot import plot_scans
 from sim.view.timeline_plots import plot_logs, plot_signal, plot_topics
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "plot_logs",
     "plot_map",
     "plot_path",
+    "plot_scans",
     "plot_signal",
     "plot_topics",
     "png",

@@ -37,7 +37,8 @@ SIM_ROS = (
     *("bundled_programs", "workspaces", "packages", "absent_names", "left_out", "parameter_sources"),
     *("messages", "built_interfaces", "sourcing"),
     *("fibers", "recorder", "transport", "engine", "hooks", "robots"),
-    *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "exploring", "realtime"),
+    *("ground_truth", "latest", "launching", "bags", "session", "play"),
+    *("remote", "run", "exploring", "realtime"),
 )
 
 # The folders of ros_packages/ that are on Python's path, and the packages that no module in them imports.

@@ -142,7 +142,7 @@ class ReadyScan:
         if subscription._callback_type is MESSAGE_ONLY:
             arguments = (sent.message,)
         else:
-            arguments = sent.message, sent.information(self.engine.now)
+            arguments = sent.message, sent.information(self.engine.now, self.engine.epoch)
         return Work("subscription", subscription, node, subscription.callback, arguments)
 
     def _guard_condition(self, guard: Any, node: Any) -> Work | None:

@@ -10,7 +10,7 @@ from typing import Any
 from rclpy.clock import ROSClock
 from rclpy.time import Time
 
-from sim.nanoseconds import EPOCH, Nanoseconds
+from sim.nanoseconds import Nanoseconds
 from sim.ros.fibers.scheduler import Scheduler
 
 
@@ -27,8 +27,9 @@ class SimulatedTime:
 
     def adopt(self, clock: ROSClock) -> None:
         """Make this ROS clock show the run's time."""
+        now = self._scheduler.epoch + self._scheduler.now
         with clock.handle:
-            clock.handle.set_ros_time_override(Time(nanoseconds=EPOCH + self._scheduler.now)._time_handle)
+            clock.handle.set_ros_time_override(Time(nanoseconds=now)._time_handle)
             clock.handle.set_ros_time_override_is_enabled(True)
         self._handles[weakref.ref(clock, self._handles.pop)] = clock.handle
 
@@ -41,7 +42,7 @@ class SimulatedTime:
         self._scheduler.now = moment
         self._wall.append(time_ns())
         self._moments.append(moment)
-        time = Time(nanoseconds=EPOCH + moment)._time_handle
+        time = Time(nanoseconds=self._scheduler.epoch + moment)._time_handle
         for handle in list(self._handles.values()):  # a clock may be destroyed meanwhile
             handle.set_ros_time_override(time)
 

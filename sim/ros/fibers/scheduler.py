@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 import greenlet
 
-from sim.nanoseconds import Nanoseconds
+from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.ros.fibers.choices import Choices
 from sim.ros.fibers.exceptions import Livelock
 from sim.ros.fibers.fiber import Fiber, Program
@@ -28,6 +28,7 @@ class Scheduler:
 
     def __init__(self) -> None:
         self.now: Nanoseconds = 0
+        self.epoch: Nanoseconds = EPOCH  # what clocks show at the start of the run
         self.waiters = Waiters()
         self.choices: Choices | None = None  # None in the usual order
         self.preemption: Any = None  # None where no thread is preempted

@@ -14,17 +14,17 @@ from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
-from sim.nanoseconds import EPOCH, UPTIME, Nanoseconds
+from sim.nanoseconds import UPTIME, Nanoseconds
 from sim.ros.engine.clock_switch import ClockSwitch
-from sim.ros.fibers.scheduler import engine
+from sim.ros.fibers.scheduler import Scheduler, engine
 from sim.ros.hooks.table import hook
 
 ON_SWITCH = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
 
 
-def _offset(clock: Clock) -> Nanoseconds:
+def _offset(clock: Clock, run: Scheduler) -> Nanoseconds:
     """Return what a clock shows at the start of a run."""
-    return UPTIME if clock.clock_type is ClockType.STEADY_TIME else EPOCH
+    return UPTIME if clock.clock_type is ClockType.STEADY_TIME else run.epoch
 
 
 @hook(
@@ -121,7 +121,7 @@ def now(original: Callable) -> Callable:
         if run is None:
             return original(self)
         run.count_call("looks at a clock")
-        return Time(nanoseconds=run.now + _offset(self), clock_type=self.clock_type)
+        return Time(nanoseconds=run.now + _offset(self, run), clock_type=self.clock_type)
 
     return now
 
@@ -137,7 +137,7 @@ def sleep_until(original: Callable) -> Callable:
             raise NotInitializedException()
         if until.clock_type != self.clock_type:
             raise ValueError("until's clock type does not match this clock's type")
-        wake = until.nanoseconds - _offset(self)
+        wake = until.nanoseconds - _offset(self, run)
         switched: list[TimeJump] = []
         with self.create_jump_callback(ON_SWITCH, post_callback=switched.append):
             if run.now < wake:

@@ -13,13 +13,14 @@ from typing import Any
 
 import numpy.random
 
-from sim.nanoseconds import EPOCH, SECOND, UPTIME, nanoseconds
+from sim.nanoseconds import SECOND, UPTIME, nanoseconds
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
-# What clocks show at the start of a run, by their numbers; the others count from the start of the machine.
-AT_START = {time.CLOCK_REALTIME: EPOCH, time.CLOCK_TAI: EPOCH}
-AT_START |= dict.fromkeys((time.CLOCK_PROCESS_CPUTIME_ID, time.CLOCK_THREAD_CPUTIME_ID), 0)
+# Python's numbers of clocks that show the time of day, and computing time; the others count from the start of
+# the machine.
+OF_DAY = time.CLOCK_REALTIME, time.CLOCK_TAI
+COMPUTING = time.CLOCK_PROCESS_CPUTIME_ID, time.CLOCK_THREAD_CPUTIME_ID
 
 
 @hook(time, "sleep", "sleeping takes simulated time")
@@ -38,7 +39,7 @@ def sleep(original: Callable) -> Callable:
     return sleep
 
 
-def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
+def _clock(name: str, of_day: bool, convert: Callable[[int], Any]) -> None:
     @hook(time, name, "Python's clocks show simulated time")
     def clock(original: Callable) -> Callable:
         def read() -> Any:
@@ -46,15 +47,14 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
             if run is None:
                 return original()
             run.count_call("looks at a clock")
-            return convert(epoch + run.now)
+            return convert((run.epoch if of_day else UPTIME) + run.now)
 
         return read
 
 
 for _name in ("time", "monotonic", "perf_counter"):
-    _epoch = EPOCH if _name == "time" else UPTIME
-    _clock(_name, _epoch, lambda nanoseconds: nanoseconds / SECOND)
-    _clock(f"{_name}_ns", _epoch, int)
+    _clock(_name, _name == "time", lambda nanoseconds: nanoseconds / SECOND)
+    _clock(f"{_name}_ns", _name == "time", int)
 
 
 def _clock_by_number(name: str, convert: Callable[[int], Any]) -> None:
@@ -65,7 +65,8 @@ def _clock_by_number(name: str, convert: Callable[[int], Any]) -> None:
             if run is None:
                 return original(number)
             run.count_call("looks at a clock")
-            return convert(run.now + AT_START.get(number, UPTIME))
+            start = run.epoch if number in OF_DAY else 0 if number in COMPUTING else UPTIME
+            return convert(run.now + start)
 
         return read
 
@@ -90,7 +91,7 @@ def _calendar(name: str) -> None:
         def at(seconds: float | None = None) -> Any:
             run = engine()
             if seconds is None and run is not None:
-                seconds = (EPOCH + run.now) / SECOND
+                seconds = (run.epoch + run.now) / SECOND
             return original(seconds)
 
         return at

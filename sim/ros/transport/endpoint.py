@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from rclpy.qos import QoSProfile
 
-from sim.nanoseconds import EPOCH, Nanoseconds
+from sim.nanoseconds import Nanoseconds
 from sim.network import LAPTOP
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.qos import FOREVER, latches, resolved
@@ -21,11 +21,14 @@ class Sample(NamedTuple):
     number: int
     expires: Nanoseconds = FOREVER
 
-    def information(self, now: Nanoseconds) -> dict[str, Any]:
-        """The MessageInfo, a callback's second argument, of a message that is taken now."""
+    def information(self, now: Nanoseconds, epoch: Nanoseconds) -> dict[str, Any]:
+        """The MessageInfo, a callback's second argument, of a message that is taken now.
+
+        epoch: what clocks show at the start of the run.
+        """
         return {
-            "source_timestamp": EPOCH + self.stamp,
-            "received_timestamp": EPOCH + now,
+            "source_timestamp": epoch + self.stamp,
+            "received_timestamp": epoch + now,
             "publication_sequence_number": self.number,
             "reception_sequence_number": None,
         }

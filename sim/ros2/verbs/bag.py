@@ -8,7 +8,9 @@ from pathlib import Path
 
 import yaml
 
-from sim.ros2.bags import Bag, BagWriter, write_metadata
+from sim.nanoseconds import SECOND
+from sim.ros.bags.contents import MCAP, SQLITE
+from sim.ros.bags.files import Bag, BagWriter, write_metadata
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.system import CliError, Output, System, suggestion
@@ -16,7 +18,8 @@ from sim.ros2.topic_selection import SELECTING, TopicSelection
 
 bag = Group("bag", "Bags: record messages, inspect them, play them back")
 PATH = argument("bag_path", type=Path, help="The folder of a bag, or an .mcap file")
-STORAGE = argument("-s", "--storage", choices=["mcap"], default="mcap", help="The only format: mcap")
+STORAGE = argument("-s", "--storage", choices=[MCAP], default=MCAP, help="The format to write: mcap")
+READ_STORAGE = argument("-s", "--storage", choices=[MCAP, SQLITE], help="Changes nothing: it is recognized")
 
 
 @bag.verb(
@@ -45,13 +48,15 @@ def record(system: System, options: Namespace) -> None:
         raise CliError("There is nothing to record.")
     qos = {end.name: end.qos for end in system.endpoints if end.kind == "publisher"}
     folder = options.output or Path(time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
-    with BagWriter(folder, system.epoch) as writer:
+    with BagWriter(folder) as writer:
         for name in chosen:
             system.print_line(f"Subscribed to topic '{name}'")
         try:
             for message in system.subscribe(chosen):
                 if message is not None:
-                    writer.write(message, qos.get(message.topic, {}))
+                    moments = (system.epoch + round(at * SECOND) for at in (message.stamp, message.sent))
+                    offered = qos.get(message.topic, {})
+                    writer.write(message.topic, message.type, message.raw, tuple(moments), offered)
         finally:
             system.print_line(f"Recording stopped: {writer.contents.counts.total()} messages in {folder}")
 
@@ -76,7 +81,7 @@ def _chosen(system: System, selection: TopicSelection, *, wait: bool) -> dict[st
 @bag.verb(
     "info",
     PATH,
-    STORAGE,
+    READ_STORAGE,
     flag("-t", "--topic-name", help="Only display topic names."),
     without_system=True,
 )
@@ -148,8 +153,11 @@ EXAMPLE = "output_bags: [{uri: new_bag, all_topics: true}]"
 def convert(output: Output, options: Namespace) -> None:
     """Given an input bag, write out a new bag with different settings."""
     for words in options.input:
-        if len(words) > 2 or words[1:] not in ([], ["mcap"]):
-            raise CliError(f"--input expects a bag and, at most, its format mcap; it has {' '.join(words)}.")
+        if len(words) > 2 or words[1:] not in ([], [MCAP], [SQLITE]):
+            raise CliError(
+                f"--input expects a bag and, at most, its format, {MCAP} or {SQLITE}; it has "
+                f"{' '.join(words)}."
+            )
     bags = [Bag(Path(words[0])) for words in options.input]
     found = [item for each in bags for item in each.messages()]
     found.sort(key=lambda item: item[2].log_time)

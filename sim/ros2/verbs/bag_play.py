@@ -8,21 +8,22 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import rclpy
-import yaml
 from mcap.records import Channel
 from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.ros.bags.files import Bag
+from sim.ros.bags.played import metadata_qos
+from sim.ros.bags.qos import offered_profile
+from sim.ros.bags.sqlite import QOS
 from sim.ros.messages.codec import message_class
-from sim.ros2.bags import DURABILITIES, QOS, RELIABILITIES, Bag
 from sim.ros2.group import argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.system import CliError, Output, System
 from sim.ros2.topic_selection import EXCLUDING, TopicSelection
-from sim.ros2.verbs.bag import PATH, STORAGE, bag
+from sim.ros2.verbs.bag import PATH, READ_STORAGE, bag
 from sim.ros2.verbs.publishing import MARGIN, positive_float
 
 CLOCK = "/clock"
@@ -42,7 +43,7 @@ def not_negative_float(text: str) -> float:
 @bag.verb(
     "play",
     PATH,
-    STORAGE,
+    READ_STORAGE,
     argument("-r", "--rate", type=positive_float, default=1.0, help="Rate at which to play back messages"),
     argument("--topics", nargs="+", default=[], metavar="TOPIC", help="Topics to play; all without"),
     *EXCLUDING,
@@ -105,10 +106,12 @@ class BagPlayer:
 
     def play(self, found: list[tuple[str, Channel, Any]]) -> int:
         """Play these messages; returns how many it published."""
+        stored = metadata_qos(self.options.bag_path)
         for type_, channel, _ in found:
             if channel.topic not in self.publishers:
                 kind, name = message_class(type_), self._remapped(channel.topic)
-                self.publishers[channel.topic] = self.node.create_publisher(kind, name, _profile(channel))
+                profile = offered_profile(channel.metadata.get(QOS) or stored.get(channel.topic, ""))
+                self.publishers[channel.topic] = self.node.create_publisher(kind, name, profile)
         if self.options.clock:
             self.publishers[CLOCK] = self.node.create_publisher(Clock, CLOCK, 1)
         self._sleep(MARGIN / 2)  # until subscriptions have been discovered
@@ -157,14 +160,3 @@ class BagPlayer:
     def _sleep(self, seconds: float) -> None:
         if seconds:
             self.node.get_clock().sleep_for(Duration(seconds=seconds))
-
-
-def _profile(channel: Channel) -> QoSProfile:
-    """The QoS that the topic was published with; the default if the bag has none."""
-    try:
-        offered = yaml.safe_load(channel.metadata[QOS])[0]
-        reliability = ReliabilityPolicy[RELIABILITIES[offered["reliability"]].upper()]
-        durability = DurabilityPolicy[DURABILITIES[offered["durability"]].upper()]
-    except (KeyError, IndexError, TypeError, yaml.YAMLError):
-        return QoSProfile(depth=10)
-    return QoSProfile(depth=10, reliability=reliability, durability=durability)

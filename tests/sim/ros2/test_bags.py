@@ -12,7 +12,7 @@ from rclpy.service_introspection import ServiceIntrospectionState
 from std_msgs.msg import Float64, String
 
 from sim import run
-from sim.ros2.bags import Bag
+from sim.ros.bags.files import Bag
 from sim.ros2.cli_program import terminal
 from sim.ros2.notebook import ros2
 
@@ -169,10 +169,10 @@ def test_a_bag_has_one_format(printed):
         "\tReads and writes MCAP files, with the libraries mcap and PyYAML\n"
     )
     Path("out.yaml").write_text("output_bags: [{uri: new}]")
-    assert printed("bag convert -i kept sqlite3 -o out.yaml") == (
-        "--input expects a bag and, at most, its format mcap; it has kept sqlite3.\n"
+    assert printed("bag convert -i kept db3 -o out.yaml") == (
+        "--input expects a bag and, at most, its format, mcap or sqlite3; it has kept db3.\n"
     )
-    assert printed("bag info kept -s sqlite3").endswith("there is no 'sqlite3', only mcap.\n")
+    assert printed("bag record -s sqlite3 /text").endswith("there is no 'sqlite3', only mcap.\n")
 
 
 def played(words, seconds):

@@ -7,9 +7,9 @@ from time import perf_counter
 import pytest
 from rclpy.node import Node
 
+from sim.ros.bags.files import Bag
 from sim.ros.latest import latest
 from sim.ros.messages.decoder import decode
-from sim.ros2.bags import Bag
 from sim.ros2.notebook import ros2
 from tests.sim.ros.playing import player
 from tests.sim.ros2.nodes import NODES

@@ -13,6 +13,7 @@ from sim.distro import DISTRO
 from sim.nanoseconds import SECOND, Nanoseconds
 
 VERSION = 8  # of metadata.yaml
+MCAP, SQLITE = "mcap", "sqlite3"  # formats, as `ros2 bag` names them
 EVENTS, EVENT_TYPE = "/_service_event", "_Event"  # how the topic and the type of a service's events end
 
 
@@ -27,16 +28,18 @@ class Contents:
 
     counts: Counter[str] = field(default_factory=Counter)
     types: dict[str, str] = field(default_factory=dict)
+    qos: dict[str, str] = field(default_factory=dict)  # YAML, of the topics that have it
     begin: Nanoseconds = 0
     end: Nanoseconds = 0
 
-    def add(self, topic: str, type_: str, received: Nanoseconds) -> None:
-        """Count a message."""
+    def add(self, topic: str, type_: str, received: Nanoseconds, qos: str = "") -> None:
+        """Count a message. qos: of its topic, as YAML."""
         first = not self.counts
         self.begin = received if first else min(self.begin, received)
         self.end = received if first else max(self.end, received)
         self.counts[topic] += 1
         self.types[topic] = type_
+        self.qos[topic] = qos
 
     @property
     def topics(self) -> list[str]:
@@ -51,7 +54,7 @@ class Contents:
                     "name": name,
                     "type": self.types[name],
                     "serialization_format": "cdr",
-                    "offered_qos_profiles": "",
+                    "offered_qos_profiles": self.qos.get(name, ""),
                     "type_description_hash": "",
                 },
                 "message_count": count,
@@ -61,7 +64,7 @@ class Contents:
         return {
             "rosbag2_bagfile_information": {
                 "version": VERSION,
-                "storage_identifier": "mcap",
+                "storage_identifier": MCAP,
                 **self._span(),
                 "topics_with_message_count": topics,
                 "compression_format": "",
@@ -81,7 +84,7 @@ class Contents:
             "message_count": self.counts.total(),
         }
 
-    def info(self, files: Sequence[Path]) -> str:
+    def info(self, files: Sequence[Path], storage: str = MCAP) -> str:
         """A summary, as `ros2 bag info` prints it."""
         services = [name for name in sorted(self.counts) if name not in self.topics]
         topics = [
@@ -97,7 +100,7 @@ class Contents:
         rows = {
             "Files": ("\n" + 19 * " ").join(file.name for file in files),
             "Bag size": _size(sum(file.stat().st_size for file in files)),
-            "Storage id": "mcap",
+            "Storage id": storage,
             "ROS Distro": DISTRO,
             "Duration": f"{_seconds(self.end - self.begin)}s",
             "Start": _date(self.begin),

@@ -1,0 +1,44 @@
+"""Writes the recording of a run as a bag, as if a laptop had recorded it over radio."""
+
+from __future__ import annotations
+
+import random
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+from sim.evidence.rows import INFRASTRUCTURE_TOPICS, Seconds
+from sim.evidence.run_data import RunData
+from sim.nanoseconds import SECOND
+from sim.ros.bags.files import BagWriter
+
+
+def save_bag(
+    recording: RunData,
+    folder: str | Path,
+    topics: Sequence[str] = (),
+    *,
+    delay: Seconds = 0.03,
+    jitter: Seconds = 0.005,
+    begin: Seconds = 0.0,
+) -> str:
+    """Write messages of a run into a folder, in place of an earlier bag; returns it.
+
+    topics: which to write; all but ROS's own without them. delay: how long messages of the robot are on the
+    way (s), more or less `jitter`. begin: when the recording begins (s): earlier messages are missing, and
+    what was latched earlier, too. Raises BagError if the folder can't be made, or if there is no message.
+    """
+    if Path(folder, "metadata.yaml").is_file():
+        shutil.rmtree(folder)  # an earlier bag; BagWriter refuses any other folder
+    chance, rows = random.Random(1), []
+    for row in recording.published:
+        late = max(0.0, delay + chance.uniform(-jitter, jitter)) if row.from_course else 0.0
+        if (not topics or row.topic in topics) and row.topic not in INFRASTRUCTURE_TOPICS:
+            rows.append((row.stamp + late, row))
+    rows = [(received, row) for received, row in rows if received >= begin]
+    qos = {end.name: end.qos for end in recording.graph.publishers()}
+    with BagWriter(Path(folder)) as writer:
+        for received, row in sorted(rows, key=lambda pair: pair[0]):
+            times = (recording.epoch + round(moment * SECOND) for moment in (received, row.stamp))
+            writer.write(row.topic, row.type, row.raw, tuple(times), qos.get(row.topic, {}))
+    return str(Path(folder))
