@@ -21,7 +21,7 @@ from grader.companions.blind_drivers import BlindDriver
 from grader.companions.drivers import Speeds
 from sim.evidence import Recording, Seconds
 from sim.nanoseconds import EPOCH, SECOND
-from sim.ros.bags.files import BagWriter
+from sim.ros.bags.bag_files import BagWriter
 from sim.ros.bags.played import BagMessage, PlayedBag
 from sim.ros.bags.qos import recorded_qos
 from sim.ros.messages.codec import encode
@@ -42,7 +42,7 @@ DELAY, JITTER = 0.012, 0.006  # s from the robot to the laptop
 Mount = tuple[float, float, float]  # x, y (m) and yaw (rad) in base_link
 
 
-class Row(NamedTuple):
+class RobotMessage(NamedTuple):
     """A message of a bag. received, sent: s since the robot's start, by the clocks of laptop and robot."""
 
     received: Seconds
@@ -56,7 +56,7 @@ class Row(NamedTuple):
         """The message; a fresh copy for each reader."""
         return decode(self.type, self.raw)
 
-    def with_message(self, message: Any) -> Row:
+    def with_message(self, message: Any) -> RobotMessage:
         """Return it with another content."""
         return self._replace(raw=encode(message))
 
@@ -106,7 +106,7 @@ def explored(seed: int, lidar: Mount) -> Recording:
     return run(driver, world=world, seconds=END + 0.5, seed=seed, quiet=True)
 
 
-def bag_rows(recording: Recording, seed: int, *, delay: Seconds = DELAY) -> list[Row]:
+def bag_rows(recording: Recording, seed: int, *, delay: Seconds = DELAY) -> list[RobotMessage]:
     """The robot's messages as they were received, without static transforms."""
     chance = random.Random(f"radio {seed}")
     rows, newest = [], dict.fromkeys(TOPICS, 0.0)
@@ -114,13 +114,13 @@ def bag_rows(recording: Recording, seed: int, *, delay: Seconds = DELAY) -> list
         if sent.topic in TOPICS:
             received = max(newest[sent.topic], sent.stamp + delay + chance.uniform(-JITTER, JITTER))
             newest[sent.topic] = received  # a topic's messages arrive in their order
-            rows.append(Row(received, sent.stamp, sent.topic, sent.type, sent.raw))
+            rows.append(RobotMessage(received, sent.stamp, sent.topic, sent.type, sent.raw))
     return [row for row in rows if BEGIN <= row.received < END]
 
 
 def silenced(
-    rows: Iterable[Row], topic: str, silent: tuple[Seconds, Seconds], hiccup: tuple[Seconds, Seconds]
-) -> list[Row]:
+    rows: Iterable[RobotMessage], topic: str, silent: tuple[Seconds, Seconds], hiccup: tuple[Seconds, Seconds]
+) -> list[RobotMessage]:
     """The rows of a bag with a silent sensor and, at another time, a silent radio.
 
     silent: when the sensor of `topic` measures nothing (s). hiccup: when the radio delivers nothing of it:
@@ -136,10 +136,10 @@ def silenced(
     return found
 
 
-def static_row(received: Seconds, frames: dict[str, Mount]) -> Row:
+def static_row(received: Seconds, frames: dict[str, Mount]) -> RobotMessage:
     """A message on /tf_static, which was sent as the robot started: where frames are in base_link."""
     transforms = [_transform(name, *mount) for name, mount in frames.items()]
-    return Row(received, 0.0, STATIC, TF_TYPE, encode(TFMessage(transforms=transforms)))
+    return RobotMessage(received, 0.0, STATIC, TF_TYPE, encode(TFMessage(transforms=transforms)))
 
 
 def _transform(child: str, x: float, y: float, yaw: float) -> TransformStamped:
@@ -151,7 +151,7 @@ def _transform(child: str, x: float, y: float, yaw: float) -> TransformStamped:
     return sent
 
 
-def changed(rows: Iterable[Row], topic: str, change: Callable[[Any], Any]) -> list[Row]:
+def changed(rows: Iterable[RobotMessage], topic: str, change: Callable[[Any], Any]) -> list[RobotMessage]:
     """The rows, where `change` has changed each message of a topic in place."""
     found = []
     for row in rows:
@@ -164,7 +164,7 @@ def changed(rows: Iterable[Row], topic: str, change: Callable[[Any], Any]) -> li
     return found
 
 
-def as_played(rows: Sequence[Row], qos: dict[str, Any] | None = None) -> PlayedBag:
+def as_played(rows: Sequence[RobotMessage], qos: dict[str, Any] | None = None) -> PlayedBag:
     """The bag of these rows, to be played. qos: of topics, where it isn't the usual one."""
     stored = {topic: yaml.safe_dump([recorded_qos(used)]) for topic, used in _qos(rows, qos).items()}
     ordered = sorted(rows, key=lambda row: row.received)
@@ -172,7 +172,7 @@ def as_played(rows: Sequence[Row], qos: dict[str, Any] | None = None) -> PlayedB
     return PlayedBag(messages, stored, {})
 
 
-def write_rows(rows: Sequence[Row], folder: Path, qos: dict[str, Any] | None = None) -> Path:
+def write_rows(rows: Sequence[RobotMessage], folder: Path, qos: dict[str, Any] | None = None) -> Path:
     """Write the bag of these rows into a new folder, in the format of rosbag2. Raises BagError."""
     used = _qos(rows, qos)
     with BagWriter(folder) as writer:
@@ -182,7 +182,7 @@ def write_rows(rows: Sequence[Row], folder: Path, qos: dict[str, Any] | None = N
     return folder
 
 
-def _qos(rows: Sequence[Row], qos: dict[str, Any] | None) -> dict[str, Any]:
+def _qos(rows: Sequence[RobotMessage], qos: dict[str, Any] | None) -> dict[str, Any]:
     return {row.topic: {} for row in rows} | {k: v for k, v in (QOS | (qos or {})).items()}
 
 

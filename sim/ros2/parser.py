@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
-from sim.ros.bags.errors import BagError
+from sim.ros.bags.bag_error import BagError
 from sim.ros2.discovery_options import discovery_options
 from sim.ros2.group import USAGE_ERROR, Group, Parser, UsageError, build_parser
 from sim.ros2.system import CliError, Output, System

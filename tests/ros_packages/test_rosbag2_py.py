@@ -16,7 +16,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from sim import executable, run
-from sim.ros.bags.files import Bag
+from sim.ros.bags.bag_files import Bag
 from sim.ros2.notebook import ros2
 
 SECOND = 1_000_000_000

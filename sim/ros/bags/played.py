@@ -16,8 +16,8 @@ from rclpy.time import Time
 
 from sim.evidence.rows import INFRASTRUCTURE_TOPICS
 from sim.nanoseconds import EPOCH, SECOND, Nanoseconds
-from sim.ros.bags.errors import BagError
-from sim.ros.bags.files import Bag
+from sim.ros.bags.bag_error import BagError
+from sim.ros.bags.bag_files import Bag
 from sim.ros.bags.qos import offered_profile
 from sim.ros.bags.sqlite import QOS
 from sim.ros.engine.program import Process

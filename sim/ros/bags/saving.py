@@ -10,7 +10,7 @@ from pathlib import Path
 from sim.evidence.rows import INFRASTRUCTURE_TOPICS, Seconds
 from sim.evidence.run_data import RunData
 from sim.nanoseconds import SECOND
-from sim.ros.bags.files import BagWriter
+from sim.ros.bags.bag_files import BagWriter
 
 
 def save_bag(

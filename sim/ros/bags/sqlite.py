@@ -9,14 +9,14 @@ from pathlib import Path
 
 from mcap.records import Channel, Message, Schema
 
-from sim.ros.bags.errors import BagError
+from sim.ros.bags.bag_error import BagError
 
 QOS = "offered_qos_profiles"
 """Key of a topic's QoS in a channel's metadata, and the column of the table `topics`."""
-Row = tuple[Schema, Channel, Message]
+SqliteRow = tuple[Schema, Channel, Message]
 
 
-def read_sqlite(file: Path) -> Iterator[Row]:
+def read_sqlite(file: Path) -> Iterator[SqliteRow]:
     """Schema, channel and message as a bag in MCAP has them, in the order of their reception.
 
     Raises BagError for a file that isn't a bag.

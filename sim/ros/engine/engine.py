@@ -51,8 +51,7 @@ class Engine(Scheduler):
 
     def __init__(self, recording: Recording, screen: Callable[[str], None]) -> None:
         super().__init__()
-        self.recording = recording
-        self.epoch = recording.epoch
+        self.recording, self.epoch = recording, recording.epoch
         order = Order.parse(recording.order or None)
         self.choices = order and Choices(order, recording.departures, lambda: self.now)
         self.recorder = Recorder(self, recording)

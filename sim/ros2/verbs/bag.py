@@ -9,8 +9,8 @@ from pathlib import Path
 import yaml
 
 from sim.nanoseconds import SECOND
+from sim.ros.bags.bag_files import Bag, BagWriter, write_metadata
 from sim.ros.bags.contents import MCAP, SQLITE
-from sim.ros.bags.files import Bag, BagWriter, write_metadata
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.system import CliError, Output, System, suggestion

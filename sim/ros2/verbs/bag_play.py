@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.bags.files import Bag
+from sim.ros.bags.bag_files import Bag
 from sim.ros.bags.played import metadata_qos
 from sim.ros.bags.qos import offered_profile
 from sim.ros.bags.sqlite import QOS

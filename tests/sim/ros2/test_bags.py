@@ -12,7 +12,7 @@ from rclpy.service_introspection import ServiceIntrospectionState
 from std_msgs.msg import Float64, String
 
 from sim import run
-from sim.ros.bags.files import Bag
+from sim.ros.bags.bag_files import Bag
 from sim.ros2.cli_program import terminal
 from sim.ros2.notebook import ros2
 

@@ -7,7 +7,7 @@ from time import perf_counter
 import pytest
 from rclpy.node import Node
 
-from sim.ros.bags.files import Bag
+from sim.ros.bags.bag_files import Bag
 from sim.ros.latest import latest
 from sim.ros.messages.decoder import decode
 from sim.ros2.notebook import ros2

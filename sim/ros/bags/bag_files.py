@@ -13,8 +13,8 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Schema
 from mcap.writer import Writer
 
+from sim.ros.bags.bag_error import BagError
 from sim.ros.bags.contents import MCAP, SQLITE, Contents
-from sim.ros.bags.errors import BagError
 from sim.ros.bags.qos import recorded_qos
 from sim.ros.bags.sqlite import QOS, read_sqlite
 from sim.ros.messages.type_definitions import definition
