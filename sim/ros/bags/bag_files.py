@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from mcap.records import Channel, Schema
-from mcap.writer import Writer
+from mcap.writer import MCAP0_MAGIC, Writer
 
 from sim.ros.bags.bag_error import BagError
 from sim.ros.bags.contents import MCAP, SQLITE, Contents
@@ -123,10 +122,19 @@ def _read_mcap(file: Path) -> Iterator[tuple[Schema, Channel, Any]]:
                     yield schema, channel, message
     except BagError:
         raise
-    except EndOfFile:
-        raise BagError(
+    except Exception as error:  # the library raises many kinds of errors for a damaged file
+        raise BagError(_damage(file, error)) from None
+
+
+def _damage(file: Path, error: Exception) -> str:
+    """A sentence on why a file can't be read. MCAP begins and ends with the same bytes."""
+    try:
+        content = file.read_bytes()
+    except OSError as failure:
+        return f"{file} can't be read: {failure.strerror}."
+    if content.startswith(MCAP0_MAGIC) and not content.endswith(MCAP0_MAGIC):
+        return (
             f"{file} ends in the middle: whatever recorded it was killed, or it was copied incompletely. "
             f"Copy it again, or repair it with `mcap recover {file.name}`."
-        ) from None
-    except Exception as error:  # the library raises many kinds of errors for a damaged file
-        raise BagError(f"{file} is not an MCAP file, or it is damaged ({error}).") from None
+        )
+    return f"{file} is not an MCAP file, or it is damaged ({error})."
