@@ -85,7 +85,7 @@ def _poses(recording: Recording, topic: str, until: Seconds) -> np.ndarray:
 
 
 def _mount(recording: Recording, frame: str, yaw: float) -> Pose:
-    """Where the lidar is in base_link by /tf_static, turned by an angle."""
+    """Return the pose of the lidar in base_link by /tf_static, turned by an angle."""
     sent = itertools.chain.from_iterable(row.message.transforms for row in recording.messages("/tf_static"))
     for each in sent:
         if each.child_frame_id == frame:

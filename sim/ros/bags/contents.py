@@ -1,4 +1,4 @@
-"""What a bag holds, as its metadata.yaml describes it and `ros2 bag info` prints it."""
+"""The contents of a bag, as its metadata.yaml describes them and `ros2 bag info` prints them."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ bag_faults = Exercise(
 
 
 class Diagnosis(NamedTuple):
-    """What a node reports: the fault, how large it is, and where and when (s since 1970) it shows."""
+    """A node's report: the fault, how large it is, and where and when (s since 1970) it shows."""
 
     name: str
     amount: str

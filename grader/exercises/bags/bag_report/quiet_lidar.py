@@ -34,7 +34,7 @@ EXTRA = "camera_link", "gps_link"
 
 @dataclass(frozen=True)
 class Drawn:
-    """What is drawn for a bag: every how many scans one is published, and what happens when (s).
+    """A drawn bag: every how many scans one is published, and what happens when (s).
 
     silent: when the lidar measures nothing. hiccup: when the radio delivers nothing; scans wait meanwhile.
     delay: of the radio. begins_late: the recording begins after the static transforms were published.
