@@ -152,7 +152,7 @@ def written(storage, epoch=LATER):
     with Writer(folder, version=9, storage_plugin=storage) as writer:
         poses = writer.add_connection("/pose", "geometry_msgs/msg/PoseStamped", typestore=TYPES)
         names = writer.add_connection("/name", "std_msgs/msg/String", typestore=TYPES)
-        text = types["std_msgs/msg/String"](data="theirs")
+        text = types["std_msgs/msg/String"](data="from rosbags")
         writer.write(names, epoch, TYPES.serialize_cdr(text, "std_msgs/msg/String"))
         for number in range(20):
             moment = epoch + number * SECOND // 10
@@ -170,7 +170,7 @@ def test_what_rosbags_writes_is_played_in_its_own_time(storage, capsys):
     assert [pose.pose.position.x for pose in poses] == [1.0] * 20
     ages = [now - LATER for topic, now in received(found) if topic == "/pose"]
     assert ages == [SECOND // 1000, *(number * SECOND // 10 for number in range(1, 20))]
-    assert [row.message.data for row in found.messages("/name")] == ["theirs"]
+    assert [row.message.data for row in found.messages("/name")] == ["from rosbags"]
     ros2(f"bag info {bag}")
     printed = capsys.readouterr().out
     assert f"Storage id:        {storage.name.lower()}" in printed and "Topic: /pose" in printed
