@@ -134,7 +134,7 @@ def _damage(file: Path, error: Exception) -> str:
         return f"{file} can't be read: {failure.strerror}."
     if content.startswith(MCAP0_MAGIC) and not content.endswith(MCAP0_MAGIC):
         return (
-            f"{file} ends in the middle: its recorder was killed, or it was copied incompletely. Copy it again, "
+            f"{file} ends in the middle: its recorder was killed, or it was copied in part. Copy it again, "
             f"or repair it with `mcap recover {file.name}`."
         )
     return f"{file} is not an MCAP file, or it is damaged ({error})."

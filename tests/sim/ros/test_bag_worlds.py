@@ -198,7 +198,7 @@ def test_what_is_wrong_with_a_bag_is_said_in_a_sentence(talk):
     file = bag / "talk_0.mcap"
     file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
     assert refused(bag) == (
-        "talk/talk_0.mcap ends in the middle: its recorder was killed, or it was copied incompletely. Copy it "
+        "talk/talk_0.mcap ends in the middle: its recorder was killed, or it was copied in part. Copy it "
         "again, or repair it with `mcap recover talk_0.mcap`."
     )
     file.write_bytes(b"no bag at all" * 100)
