@@ -15,6 +15,7 @@ from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
 from sim.world.validated_model import ModelError, WorldError
 from sim.world.warehouse import WarehouseModel
+from sim.world.wheels import WheelModel
 from sim.world.world import World
 
 __all__ = [
@@ -44,6 +45,7 @@ __all__ = [
     "Stroke",
     "WarehouseModel",
     "WheelJoints",
+    "WheelModel",
     "World",
     "WorldError",
     "simulate",

@@ -5,9 +5,11 @@ import math
 import pymunk
 
 from sim.world.robot import DT, RATE, CommandError, Odometry, Pose, RobotModel, WheelJoints, wrap
+from sim.world.wheels import Wheels
 
 # Calls to these setters are faster than assignments, for which pymunk checks the attribute's name each time.
 _set_velocity, _set_angular_velocity = pymunk.Body.velocity.fset, pymunk.Body.angular_velocity.fset
+
 
 class Drive:
     """Two driven wheels under the robot's body.
@@ -16,12 +18,16 @@ class Drive:
     always move at the commanded velocity, and the body follows unless an obstacle holds it. If the body's own
     velocity were set instead, the body would penetrate walls.
 
+    imperfect: wheels whose odometry drifts; None if the wheels are what the model says.
+
     Attributes:
         body, shape: the robot in the physics.
     """
 
-    def __init__(self, space: pymunk.Space, model: RobotModel, start: Pose) -> None:
-        self._model = model
+    def __init__(
+        self, space: pymunk.Space, model: RobotModel, start: Pose, imperfect: Wheels | None = None
+    ) -> None:
+        self._model, self._imperfect = model, imperfect
         self.body, self.shape = _body(model, start)
         self._wheels = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         self._wheels.position = self.body.position
@@ -60,6 +66,8 @@ class Drive:
         self._y += stride * DT * math.sin(heading)
         self._distance += v * DT
         self._turn += w * DT
+        if self._imperfect:
+            self._imperfect.count(v, w)
 
         if self._steps_left:
             self._steps_left -= 1
@@ -73,6 +81,8 @@ class Drive:
         # new velocity applies from the pose at the end of this step, and its direction is relative to that
         # heading.
         body = self.body
+        if self._imperfect:
+            v, w = self._imperfect.on_ground(v, w)
         self._chord = stride, half_turn = _chord(v, w)
         heading = body.angle + body.angular_velocity * DT + half_turn
         _set_velocity(self._wheels, (stride * math.cos(heading), stride * math.sin(heading)))
@@ -81,11 +91,15 @@ class Drive:
     @property
     def odometry(self) -> Odometry:
         """Wheel odometry, starting at the model's `odometry`; it drifts once an obstacle held the robot."""
+        if self._imperfect:
+            return self._imperfect.odometry
         return Odometry(self._x, self._y, wrap(self._turn), self._v, self._w)
 
     @property
     def wheels(self) -> WheelJoints:
         """Angles and rates of the two wheel joints."""
+        if self._imperfect:
+            return self._imperfect.joints
         radius, lever = self._model.wheel_radius, self._model.track_width / 2
         turned = lever * (self._turn - self._model.odometry[2])
         return WheelJoints(

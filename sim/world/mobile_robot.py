@@ -12,8 +12,10 @@ from sim.world.contacts import Contact, ContactLog
 from sim.world.drive import Drive
 from sim.world.imu import Imu, ImuReading
 from sim.world.lidar import Lidar, Scan
+from sim.world.odometry_covariance import PoseCovariance, TwistCovariance
 from sim.world.odometry_error import OdometryError
 from sim.world.robot import DT, Pose, wrap
+from sim.world.wheels import Wheels
 from sim.world.world import World
 
 Rows = list[tuple[float, ...]]
@@ -46,7 +48,9 @@ class MobileRobot(Drive):
 
     def __init__(self, context: SensorContext, space: pymunk.Space, name: str, number: int) -> None:
         world = context.world
-        super().__init__(space, world.robot, world.starts()[name])
+        rng = _generator(context.seed, (number, 2))
+        wheels = Wheels(world.wheels, world.robot, rng) if world.wheels else None
+        super().__init__(space, world.robot, world.starts()[name], wheels)
         self.name = name
         self.last_scan: Scan | None = None
         self._context = context
@@ -85,6 +89,24 @@ class MobileRobot(Drive):
         """Work like `Drive.roll`, with what is lost while something touches the robot."""
         self.odometry_error.update(self._v, self._w, self.log.is_touched)
         super().roll()
+
+    @property
+    def pose_covariance(self) -> PoseCovariance:
+        """The covariance of the odometry's pose, from its wheels and from what has touched the robot."""
+        place, turn = self.odometry_error.place**2, self.odometry_error.turn**2
+        if self._imperfect is None:
+            return place, 0.0, 0.0, 0.0, place, 0.0, 0.0, 0.0, turn
+        xx, xy, xt, _, yy, yt, _, _, tt = self._imperfect.pose_covariance
+        return xx + place, xy, xt, xy, yy + place, yt, xt, yt, tt + turn
+
+    @property
+    def twist_covariance(self) -> TwistCovariance:
+        """The covariance of the odometry's velocity, likewise."""
+        speed, rate = self.odometry_error.speed**2, self.odometry_error.rate**2
+        if self._imperfect is None:
+            return speed, 0.0, 0.0, rate
+        vv, vw, _, ww = self._imperfect.twist_covariance
+        return vv + speed, vw, vw, ww + rate
 
     def update_battery(self) -> None:
         """Discharge or charge the battery; call after each step of the space."""

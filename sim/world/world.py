@@ -23,6 +23,7 @@ from sim.world.people import Person
 from sim.world.robot import OtherRobot, Pose, RobotModel
 from sim.world.validated_model import Constraint, Coordinate, Model, WorldError
 from sim.world.warehouse import WarehouseModel
+from sim.world.wheels import WheelModel
 
 _FOLDER = Path(__file__).parent / "worlds"
 
@@ -33,7 +34,8 @@ _MACHINE = Constraint(
     f"one of {', '.join(model.__name__ for model in _MACHINES)}", lambda model: type(model) in _MACHINES
 )
 _NOT_MOBILE = {
-    **{"robot": RobotModel(), "lidar": LidarModel(), "imu": None, "battery": None, "warehouse": None},
+    **{"robot": RobotModel(), "lidar": LidarModel(), "wheels": None, "imu": None},
+    **{"battery": None, "warehouse": None},
     **{"movable": (), "robots": (), "people": ()},
 }
 _Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
@@ -56,6 +58,7 @@ class World(Model):
         robots: the further robots, besides the first one, which is named "robot".
         people: the people who walk around.
         robot, lidar: the parameters of the robots and of their lidars.
+        wheels: the errors of the robots' wheels; None if they have none.
         imu: the parameters of the robots' IMUs; None if they have none.
         battery: the parameters of the robots' batteries, and the first robot's charger; None if the robots
         have
@@ -80,6 +83,7 @@ class World(Model):
     people: Annotated[tuple[Person, ...], Constraint("a list of Person")] = ()
     robot: RobotModel = field(default_factory=RobotModel)
     lidar: LidarModel = field(default_factory=LidarModel)
+    wheels: WheelModel | None = None
     imu: ImuModel | None = None
     battery: BatteryModel | None = None
     warehouse: WarehouseModel | None = None

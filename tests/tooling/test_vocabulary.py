@@ -21,8 +21,6 @@ WORDS = {
     "mend": "fix, correct or repair",
     "mended": "fixed, corrected or repaired",
     "mending": "fixing, correcting or repairing",
-    "slip": "typo, or mistake",
-    "slips": "typos, or mistakes",
     "wish": "request, target or goal",
     "wishes": "requests, targets or goals",
     "ours": "from_course, or course_...",

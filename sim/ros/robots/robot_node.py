@@ -107,9 +107,8 @@ class Robot(Node):
         pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
         if self.clock_pub is not None:
             self.clock_pub.publish(messages.clock.fill(*stamp))
-        off = robot.odometry_error
-        variances = off.place**2, off.place**2, off.turn**2, off.speed**2, off.rate**2
-        self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w, *variances))
+        covariances = *robot.pose_covariance, *robot.twist_covariance
+        self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w, *covariances))
         self.tf_pub.publish(messages.tf.fill(*stamp, *pose))
         self.joint_pub.publish(messages.joints.fill(*stamp, *robot.wheels))
         if robot.lidar_works:

@@ -19,10 +19,11 @@ from sim.world.lidar import LidarModel
 
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
-# Of x, y and yaw, and of their rates; the rest of the 6 x 6 numbers is exactly 0 in a flat world.
-VARIANCES = (
-    *(f"pose.covariance.{index}" for index in (0, 7, 35)),
-    *(f"twist.covariance.{index}" for index in (0, 35)),
+# Of x, y and yaw, whose variances are at 0, 7 and 35, and of the forward velocity and the yaw rate; the rest
+# of the 6 x 6 numbers is exactly 0 in a flat world, for a robot that can't move sideways.
+COVARIANCES = (
+    *(f"pose.covariance.{6 * row + column}" for row in (0, 1, 5) for column in (0, 1, 5)),
+    *(f"twist.covariance.{6 * row + column}" for row in (0, 5) for column in (0, 5)),
 )
 TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
@@ -40,7 +41,7 @@ class SensorMessages:
         self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
         pose = [f"pose.pose.{name}" for name in POSE]
         twist = ["twist.twist.linear.x", "twist.twist.angular.z"]
-        self.odom = Template(Odometry(**moves), [*STAMP, *pose, *twist, *VARIANCES])
+        self.odom = Template(Odometry(**moves), [*STAMP, *pose, *twist, *COVARIANCES])
         fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
         transforms = TFMessage(transforms=[TransformStamped(**moves)])
         self.tf = Template(transforms, [f"transforms.0.{field}" for field in fields])

@@ -3,11 +3,12 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from sim import Process, World, run
 from sim.evidence import since_start
-from sim.world import DT, RobotModel
+from sim.world import DT, RobotModel, WheelModel
 from tests.sim.ros.evidence import logged, values
 from tests.students.engine import drivers
 
@@ -240,7 +241,7 @@ def test_a_wall_stops_the_robot_and_presses_the_bumper():
     first, *_, last = (message for _, message in received(recording, "/odom"))
     assert last.pose.pose.position.x > 3.5
     assert (first.twist.covariance[0], first.pose.covariance[0]) == (0.0, 0.0)
-    assert last.twist.covariance[0] == last.twist.twist.linear.x ** 2 > 0.0 == last.twist.covariance[35]
+    assert last.twist.covariance[0] == last.twist.twist.linear.x**2 > 0.0 == last.twist.covariance[35]
     assert last.pose.covariance[0] > 0.5
 
 
@@ -252,3 +253,21 @@ def test_the_path_is_the_truth_in_the_map_frame():
     ahead = received(recording, "/odom")[-1][1].pose.pose.position.x
     assert recording.path[-1].y - 0.5 == pytest.approx(ahead, abs=1e-3)
     assert recording.path[-1].x == pytest.approx(0.5, abs=1e-6)
+
+
+def test_the_covariance_of_odometry_that_drifts_is_in_its_message():
+    """Rows and columns are x, y, z and the turns about them: yaw is the sixth, so its variance is at 35."""
+    wheels = WheelModel(slip=0.005, ticks=1000)
+    world = replace(World.load("yard"), wheels=wheels)
+    recording = run(drivers.Circler, world=world, seconds=4, quiet=True)
+    odom = received(recording, "/odom")[-1][1]
+    pose, twist = (np.array(part.covariance).reshape(6, 6) for part in (odom.pose, odom.twist))
+    moving = np.ix_((0, 1, 5), (0, 1, 5))
+    assert np.linalg.eigvalsh(pose[moving]).min() > 0 and (pose == pose.T).all()
+    assert [odom.pose.covariance[index] for index in (0, 7, 35)] == list(np.diag(pose)[[0, 1, 5]])
+    assert np.linalg.eigvalsh(twist[np.ix_((0, 5), (0, 5))]).min() > 0 and (twist == twist.T).all()
+    pose[moving] = 0.0
+    twist[np.ix_((0, 5), (0, 5))] = 0.0
+    assert not pose.any() and not twist.any()
+    off = recording.path[-1].x - odom.pose.pose.position.x
+    assert 0 < abs(off) < 4 * math.sqrt(odom.pose.covariance[0])

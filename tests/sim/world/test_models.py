@@ -16,6 +16,7 @@ from sim.world import (
     RobotModel,
     Simulation,
     WarehouseModel,
+    WheelModel,
     World,
 )
 
@@ -61,6 +62,10 @@ ROUTE = "[[x, y], ...], two or more corners (meters), each different from the on
     (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
     (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a number from 0 to 1000000 (rad/s)."),
     (ImuModel, {"accel_noise": None}, "accel_noise is None; write a number from 0 to 1000000 (m/s^2)."),
+    (WheelModel, {"slip": 0.1}, "slip is 0.1; write a number from 0 to 0.03 (meters)."),
+    (WheelModel, {"radius_error": math.nan}, "radius_error is nan; write a number from 0 to 0.1."),
+    (WheelModel, {"ticks": 12.5}, "ticks is 12.5; write a whole number from 0 to 100000."),
+    (WheelModel, {"left_scale": 2}, "left_scale is 2; write a number from 0.8 to 1.25."),
     (Box, {"x": 1e9, "y": 0, "yaw": 0, "width": 1, "height": 1},
      "x is 1000000000.0; write a number from -1000 to 1000 (meters)."),
     (MovableBox, {"x": 0, "y": 0, "yaw": 0, "width": 1e-300, "height": 1},

@@ -254,7 +254,7 @@ def test_a_file_with_a_wrong_line(tmp_path, good, bad, sentence):
      "write nothing there, for this world holds a machine instead of a mobile robot."),
     ("lava = 1",
      "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, movable, "
-     "robots, people, robot, lidar, imu, battery, warehouse, "
+     "robots, people, robot, lidar, wheels, imu, battery, warehouse, "
      f"{''.join(f'{key}, ' for key in MACHINES)}card."),
     ("wals = []", "wals is not a known key; did you mean walls?"),
 ])  # fmt: skip
