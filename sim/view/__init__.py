@@ -1,6 +1,7 @@
 """Plots, replays and the live view of runs. The only package of sim that imports matplotlib and Jupyter."""
 
 from sim.view.animation import animate
+from sim.view.ellipse_plot import plot_ellipses
 from sim.view.frames_plot import plot_frames
 from sim.view.graph_plot import plot_graph
 from sim.view.jitter_plot import plot_jitter
@@ -14,6 +15,7 @@ from sim.view.timeline_plots import plot_logs, plot_signal, plot_topics
 
 __all__ = [
     "animate",
+    "plot_ellipses",
     "plot_frames",
     "plot_graph",
     "plot_jitter",
