@@ -31,6 +31,7 @@ SHOWN = {
     "06_navigator/navigating": ("whole-run", "world"),
     "13_delivery/faults": ("wrong-run", "world"),
     "14_localization/lesson": ("truth-run", "world"),
+    "14_localization/covariance": ("whole-run", "world"),
 }
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
 

@@ -29,6 +29,7 @@ WARM = 1.0  # s from a drive's start in which no estimate is due
 BETTER = 0.75  # the error over that of the better sensor alone
 BOUNDS = 12.401 / STREAMS, 39.364 / STREAMS  # 95 % of the sets of 24 honest estimates are between these
 SCORE = -1.1  # the mean log score that an honest and useful estimate stays below, measured
+FAR = 0.3  # rad: an error (RMS) that no noise explains
 HUGE = 0.1  # a mean squared error in units of the variance below this is next to nothing
 DEGREES = math.degrees(1.0) ** 2
 
@@ -140,7 +141,8 @@ def _is_worse_from(tracks: list[Track], chosen: list[Track]) -> bool:
     if not chosen or not rest:
         return False
     limit = BETTER * _rms([_wheels(track) for track in tracks])
-    return _rms([track.error() for track in rest]) < limit < _rms([track.error() for track in chosen])
+    worst = _rms([track.error() for track in chosen])
+    return _rms([track.error() for track in rest]) < limit and worst > FAR
 
 
 def _in_a_turn(tracks: list[Track]) -> list[Track]:
@@ -162,6 +164,9 @@ def _jumps(track: Track) -> bool:
     "a turn and the wheels don't, the difference is bias.":
         lambda run, tracks: _rms([math.remainder(track.error() - _gyro(track), math.tau)
                                   for track in _only(tracks, "")]) < 0.03,
+    "The drives in which the yaw passes pi are far worse than the others: wrap the innovation, "
+    "math.remainder(z - predicted, math.tau).":
+        lambda run, tracks: _is_worse_from(tracks, [track for track in tracks if _jumps(track)]),
     "The drives that begin in a turn are far worse than the others: a mean of the first readings is the bias "
     "only if the robot stands still. The filter learns it from the difference to the wheels.":
         lambda run, tracks: _is_worse_from(tracks, _in_a_turn(tracks)),
@@ -169,9 +174,6 @@ def _jumps(track: Track) -> bool:
     "unknown: predict up to each message of the wheels as well, and let the yaw's variance "
     "grow by (1 rad/s * dt)**2.":
         lambda run, tracks: _is_worse_from(tracks, _only(tracks, "gyro")),
-    "The drives in which the yaw passes pi are far worse than the others: wrap the innovation, "
-    "math.remainder(z - predicted, math.tau).":
-        lambda run, tracks: _is_worse_from(tracks, [track for track in tracks if _jumps(track)]),
     "It is worse than the better sensor alone, so something is added up wrongly. Is each dt the difference "
     "of two header stamps, and are the measurements processed in the order of their stamps?": otherwise,
 })

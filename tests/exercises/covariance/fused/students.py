@@ -422,9 +422,9 @@ class TheSameForever(Fusion):
 
 
 class RoundsTheYaw(Fusion):
-    """To whole steps of 14 degrees, honestly: the variance of the rounding is in it."""
+    """To whole steps of 17 degrees, honestly: the variance of the rounding is in it."""
 
-    step = math.radians(14.0)
+    step = math.radians(17.0)
 
     def yaw(self):
         return self.step * round(self.x[0] / self.step)
