@@ -97,7 +97,7 @@ class Wheels:
         return self._v - difference, self._v + difference
 
     def _reading(self, side: int) -> float:
-        """What an encoder reads, rad."""
+        """The reading of an encoder, rad."""
         angle, tick = self._angles[side], self._tick
         return math.floor(angle / tick + 0.5) * tick if tick else angle
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,9 +22,19 @@ from grader.exercises.covariance.drift.beliefs import (
     text_of,
     yaw_nees,
 )
-from grader.exercises.covariance.drift.short_drives import DRIVES, PERIOD, SECONDS, STEPS, drives, encoders
+from grader.exercises.covariance.drift.short_drives import (
+    DRIVES,
+    PERIOD,
+    SECONDS,
+    SLIP,
+    STEPS,
+    drives,
+    encoders,
+)
 from grader.geometry.near import is_near
+from sim import World
 from sim.evidence import Message, Recording, since_start
+from sim.world import WheelModel
 
 TOPIC = "/wheel_odom"
 SAME, NEAR = 1e-3, 5e-3  # relative; m and rad
@@ -35,7 +46,12 @@ DEGREES = math.degrees(1.0) ** 2
 
 drift = Exercise("drift", "Odometry that knows how far it may be off", seconds=SECONDS, companions=encoders)
 
-__all__ = ["drift", "encoders"]
+__all__ = ["drift", "encoders", "slippery_floor"]
+
+
+def slippery_floor() -> World:
+    """An empty yard in which a robot's wheels slip as in the drives."""
+    return replace(World.load("yard"), wheels=WheelModel(slip=SLIP))
 
 
 @drift.check(1)
@@ -132,7 +148,7 @@ def stays_at_rest(run: Recording, beliefs: list[Belief]) -> None:
     "A covariance has variances, the squares of standard deviations.":
         lambda run, beliefs: 0.5 < np.median([each.covariance[2, 2] ** 2 / each.drive.spread[2, 2]
                                               for each in beliefs]) < 2.0,
-    "The yaw's variance is right, but x and y are off by more than theirs: a wrong yaw takes the robot aside "
+    "The yaw's variance is right, but x and y are off by more than that: a wrong yaw takes the robot aside "
     "on every later step. Propagate P by F @ P @ F.T, with the derivatives of x and y by the yaw in F.":
         lambda run, beliefs: YAW[0] < yaw_nees(beliefs) < YAW[1] and ratio(beliefs, 1) < 0.7,
     "The ellipses are turned by the robot's yaw: x and y are the axes of odom, not of the robot.":

@@ -1,4 +1,4 @@
-"""What a node believes after a drive, and how well that fits where the robot really is."""
+"""The beliefs of a node after a drive, and how well they fit where the robot really is."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from grader.exercises.covariance.drift.short_drives import Drive
+from grader.exercises.covariance.drift.short_drives import ShortDrive
 
 AXES = np.ix_((0, 1, 5), (0, 1, 5))  # x, y and yaw in the 6 x 6 numbers
 TINY = 1e-9  # m^2: a variance below is none
@@ -18,13 +18,13 @@ SINGULAR = 0.02  # of variances: what rounding may leave below zero
 class Belief(NamedTuple):
     """The messages for one drive: poses, shape (steps, 3), and covariances, (steps, 6, 6)."""
 
-    drive: Drive
+    drive: ShortDrive
     poses: np.ndarray
     covariances: np.ndarray
 
     @property
     def error(self) -> np.ndarray:
-        """What must be added to the last pose to get the true one."""
+        """The difference of the true pose to the last one."""
         off = self.drive.end - self.poses[-1]
         return np.array([*off[:2], math.remainder(off[2], math.tau)])
 
@@ -85,7 +85,7 @@ def ratio(beliefs: list[Belief], axis: int) -> float:
 
 
 def is_turned(beliefs: list[Belief], bounds: tuple[float, float]) -> bool:
-    """Whether the ellipses have the right size, and the error fits them once they are turned by the yaw."""
+    """Return whether the errors fit the ellipses once these are turned by the yaw."""
     found = []
     for belief in beliefs:
         yaw = belief.poses[-1][2]

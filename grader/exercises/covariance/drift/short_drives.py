@@ -25,7 +25,7 @@ FAIR = 0.92, 1.08  # the mean of the normalized squared errors over its expectat
 NAMES = ["wheel_left_joint", "wheel_right_joint"]
 
 
-class Drive(NamedTuple):
+class ShortDrive(NamedTuple):
     """One drive.
 
     rolled: what the encoders read in each step, left and right (m). believed: poses by these readings.
@@ -39,7 +39,7 @@ class Drive(NamedTuple):
 
 
 @functools.lru_cache(maxsize=4)
-def drives(seed: int) -> tuple[Drive, ...]:
+def drives(seed: int) -> tuple[ShortDrive, ...]:
     """The drives of a seed. Their errors are neither small nor large by chance, taken together."""
     rng = np.random.default_rng([seed, 143])
     rolled = [_rolled(rng) for _ in range(DRIVES)]
@@ -52,11 +52,11 @@ def drives(seed: int) -> tuple[Drive, ...]:
         whole = np.mean([e @ np.linalg.solve(s, e) for e, s in zip(off, spreads, strict=True)]) / 3
         yaw = np.mean([e[2] ** 2 / s[2, 2] for e, s in zip(off, spreads, strict=True)])
         if all(FAIR[0] < part < FAIR[1] for part in (whole, yaw)):
-            return tuple(map(Drive, rolled, believed, ends, spreads))
+            return tuple(map(ShortDrive, rolled, believed, ends, spreads))
 
 
 def _rolled(rng: np.random.Generator) -> np.ndarray:
-    """What the wheels roll in each step: straight or in a curve, some of it backwards, with a stop."""
+    """The distances that the wheels roll in each step: straight or in a curve, some of it backwards, with a stop."""
     steps: list[tuple[float, float]] = []
     stop = int(rng.integers(8, 25))
     while len(steps) < STEPS:
@@ -68,7 +68,7 @@ def _rolled(rng: np.random.Generator) -> np.ndarray:
 
 
 def _ends(rolled: np.ndarray, rng: np.random.Generator, number: int) -> np.ndarray:
-    """Where so many robots end that read the same and slip differently."""
+    """The ends of so many robots that read the same and slip differently."""
     noise = SLIP * np.sqrt(np.abs(rolled)) * rng.standard_normal((number, *rolled.shape))
     return _poses(rolled + noise)[:, -1]
 

@@ -28,8 +28,8 @@ SECONDS = (LEAD + STREAMS * TICKS) * PERIOD
 ROUGH = 1e-4  # rad: what the wheels' yaw is rounded to, as a standard deviation
 
 
-class Stream(NamedTuple):
-    """What one robot's sensors say. All arrays have a row for each tick.
+class RobotStream(NamedTuple):
+    """The sensor readings of one robot. All arrays have a row for each tick.
 
     yaws: the true ones, rad, not wrapped. speeds: m/s. gyro: readings, rad/s. wheels: yaws of the odometry,
     rad, with their variances `spread`. silent: the sensor that is silent for a while ("", "gyro",
@@ -48,7 +48,7 @@ class Stream(NamedTuple):
 
 
 @functools.lru_cache(maxsize=4)
-def streams(seed: int) -> tuple[Stream, ...]:
+def streams(seed: int) -> tuple[RobotStream, ...]:
     """The streams of a seed; taken together, their largest errors are neither small nor large by chance."""
     rng = np.random.default_rng([seed, 144])
     biases = rng.permutation(np.linspace(-BIAS, BIAS, STREAMS))
@@ -58,7 +58,7 @@ def streams(seed: int) -> tuple[Stream, ...]:
     return tuple(_stream(number, rng, *each) for number, each in enumerate(both))
 
 
-def _stream(number: int, rng: np.random.Generator, bias: float, slipped: float, noise: float) -> Stream:
+def _stream(number: int, rng: np.random.Generator, bias: float, slipped: float, noise: float) -> RobotStream:
     """One robot. slipped, noise: the errors of wheels and gyro in the whole drive, over what is usual."""
     speeds, rates = _motion(rng, rests=number % 3 != 2)
     turns = rates * PERIOD
@@ -71,7 +71,7 @@ def _stream(number: int, rng: np.random.Generator, bias: float, slipped: float, 
     silent = ("", "wheels", "", "gyro")[number % 4]
     begin = int(rng.integers(24, 40))
     late = rng.integers(1, LATE, STEPS + TAIL)
-    return Stream(
+    return RobotStream(
         np.cumsum(turns), speeds, gyro, np.cumsum(wheels), np.cumsum(spread),
         silent, range(begin, begin + {"wheels": 20, "gyro": 15}.get(silent, 0)), _stalls(rng), late,
     )  # fmt: skip
@@ -130,7 +130,7 @@ class Robots(Tape):
         super().__init__("robots", round(PERIOD * 1e9), types, rows)
 
 
-def _odom(stream: Stream, tick: int) -> Odometry:
+def _odom(stream: RobotStream, tick: int) -> Odometry:
     """Wheel odometry with the covariance of its yaw, and of the yaw rate in the last 0.2 s."""
     odom = Odometry(child_frame_id="base_link")
     odom.header.frame_id = "odom"
@@ -145,7 +145,7 @@ def _odom(stream: Stream, tick: int) -> Odometry:
     return odom
 
 
-def _imu(stream: Stream, tick: int) -> Imu:
+def _imu(stream: RobotStream, tick: int) -> Imu:
     imu = Imu()
     imu.header.frame_id = "base_link"
     imu.orientation_covariance[0] = -1.0  # this IMU has no orientation: sensor_msgs/Imu
