@@ -84,6 +84,7 @@ class Session:
         remember_programs(self.recording, [spec.target for spec in self._specs])
         self.truth: GroundTruth | None = None  # while the run lasts, if it has a world
         self.engine: Engine | None = None
+        self.warning = ""  # what the live picture has to tell the user
         self.over = self._interrupted = False
         self._until = until
         self._loop: MainLoop | None = None

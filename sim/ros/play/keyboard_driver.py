@@ -53,8 +53,8 @@ class KeyboardDriver:
         session = self._session
         if session.engine is None or session.truth is None:
             return
-        session.engine.pointed = (x, y)
+        session.engine.pointed, session.warning = (x, y), ""
         place_box = getattr(session.truth.scene, "place_box", None)  # a machine's world has no boxes
         for node in session.nodes:
-            if isinstance(node, Pointer) and node.box and place_box:
-                place_box(node.box, x, y)
+            if isinstance(node, Pointer) and node.box and place_box and not place_box(node.box, x, y):
+                session.warning = f"{node.box} can't be put there: click a free place."

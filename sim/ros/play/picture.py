@@ -77,7 +77,7 @@ class PictureUpdater:
         self._last = now, urgent
         contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-MAX_CONTACTS:]]
         state = {"recording": session.recording, "stamp": stamp, "pace": pace}
-        state |= {"topics": self._topics(session), "contacts": contacts}
+        state |= {"topics": self._topics(session), "contacts": contacts, "warning": session.warning}
         if session.recording.drawing is not None:
             state["drawing"] = session.recording.drawing
         self._call("state", state | self.telemetry.update(session) | urgent)

@@ -338,7 +338,7 @@ class View {
 
   /** That the goal was reached, and the end of the run or a contact, while it lasts: all are announced to screen readers. */
   showEvent(ended) {
-    const { warning = "", touching = false } = this.status; // the warning is of a stand-alone robot
+    const { warning = "", touching = false } = this.status; // a stand-alone robot has warnings, and a click where no box fits
     this.warningLine.hidden = !warning;
     if (this.warningLine.textContent !== warning) this.warningLine.textContent = warning;
     const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];

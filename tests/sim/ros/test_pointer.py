@@ -1,5 +1,7 @@
 """Clicks in the live picture: nodes read them as points, and a box is put where the user clicks."""
 
+import itertools
+
 import pytest
 
 from sim import Pointer, Process, Teleop, World, play, run
@@ -16,10 +18,10 @@ def clock():
     return playing.Clock([FRAME / 4])
 
 
-def clicked(clock, *nodes, world, places):
+def clicked(clock, *nodes, world, places, picture=None):
     """A player in whose picture these places were clicked, one after each ten frames."""
     made = playing.player(*nodes, world=world, seconds=600, clock=clock)
-    watcher = playing.watched(made)
+    watcher = playing.watched(made, picture)
     for place in places:
         for _ in range(10):
             made.play_frame()
@@ -66,6 +68,14 @@ def test_a_box_is_not_put_into_a_robot_or_a_wall(clock, where):
     first, last = recording.tracks["box_1"][0], recording.tracks["box_1"][-1]
     assert (first.x, first.y) == (last.x, last.y)
     assert not recording.contacts
+
+
+def test_the_picture_says_where_no_box_fits_until_the_next_click(clock):
+    pointer, picture = Process(Pointer, parameters={"box": "box_1"}), playing.Watcher()
+    x, y, _ = STOREROOM.start
+    clicked(clock, pointer, world=STOREROOM, places=[[x, y], [x + 0.6, y]], picture=picture)
+    shown = [words for words, _ in itertools.groupby(state["warning"] for state in picture.states)]
+    assert shown == ["", "box_1 can't be put there: click a free place.", ""]
 
 
 @pytest.mark.parametrize(
