@@ -1,4 +1,4 @@
-"""How often the navigator of solutions/06_navigator gets to its goal in worlds drawn from seeds.
+"""How often the navigator of solutions/06b_navigating gets to its goal in worlds drawn from seeds.
 
 python -m tests.bench.navigator --worlds 200
 """
@@ -23,7 +23,7 @@ from sim.evidence import Recording
 from sim.world import World
 from tests.bench.report import table
 
-NOTEBOOK = Path(__file__).parents[2] / "solutions" / "06_navigator" / "navigator.ipynb"
+NOTEBOOK = Path(__file__).parents[2] / "solutions" / "06b_navigating" / "navigating.ipynb"
 KINDS = ("room", "clutter", "maze", "noisy", "blocked")
 NEAR, SECONDS = 0.25, 120  # m, s
 RUNS = re.compile(r"\brecording\b|\.grade\(")  # cells that run something

@@ -61,6 +61,7 @@ class Evidence:
         """The recordings of the students' nodes of an assignment."""
         own = f"grader/exercises/{topic}", f"tests/exercises/{topic}", "tests/students/workspaces.py"
         own += "tests/students/teams.py", "tests/bench/delivery"  # robots of several programs
+        own += ("tests/exercises/navigator/parts.py",)  # of two assignments
         return cls(f"nodes-{topic}", *COURSE, *own)
 
     @classmethod

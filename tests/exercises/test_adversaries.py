@@ -16,20 +16,23 @@ from tests.exercises.test_actions import TestActions as Actions
 from tests.exercises.test_control import TestControl as Control
 from tests.exercises.test_delivery import TestDelivery as Delivery
 from tests.exercises.test_frames import TestFrames as Frames
+from tests.exercises.test_guarding import TestGuarding as Guarding
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_launching import TestLaunching as Launching
+from tests.exercises.test_navigating import TestNavigating as Navigating
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
 from tests.exercises.test_packages import TestPackages as Packages
 from tests.exercises.test_safety import TestSafety as Safety
 from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
+from tests.exercises.test_settings import TestSettings as Settings
 from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_testing import TestTesting as Testing
 from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
-    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence),
+    *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
     *(Joints, Frames, Control, Packages, Launching, Testing, Safety, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]

@@ -8,7 +8,7 @@ from tests.exercises.seeds import SOLUTION, exercise_of, programs_named
 FELL_SHORT = [
     ("safety", "latch", "Stop", "secret 0"),  # the button's message overtakes a command
     ("delivery", "decide", "OneClassForEachState", "secret 74"),  # it decides between two orders' arrivals
-    ("navigator", "navigate", SOLUTION, "secret 112"),  # its path is 35 % longer in another order
+    ("navigating", "navigate", SOLUTION, "secret 112"),  # its path is 35 % longer in another order
 ]
 
 

@@ -13,10 +13,10 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import Float64
 
 from grader import Missed
-from grader.exercises import navigator, sensing
+from grader.exercises import guarding, navigator
+from grader.exercises.guarding.gyro import does_not_drift
 from grader.exercises.navigator.costmap import answers_clicks
 from grader.exercises.navigator.plan import answers_a_goal
-from grader.exercises.sensing.gyro import does_not_drift
 from grader.programs import LocalPrograms
 from sim.evidence import Ended, Graph
 from tests.exercises.assignment import first_run
@@ -54,8 +54,8 @@ class Says(NamedTuple):
 
 BOTH = dict.fromkeys(("/goal/distance", "/goal/bearing"), Float64)
 NODES = {
-    sensing.heading: Says(("/odom", Odometry, 10), {"/heading": Float64}, math.inf, 2.0),
-    sensing.gyro: Says(("/imu/data", Imu, 10), {"/heading": Float64}, math.inf, 3.0),
+    guarding.heading: Says(("/odom", Odometry, 10), {"/heading": Float64}, math.inf, 2.0),
+    guarding.gyro: Says(("/imu/data", Imu, 10), {"/heading": Float64}, math.inf, 3.0),
     navigator.compass: Says(("/odom", Odometry, 10), BOTH, math.inf, 2.0),
     navigator.costmap: Says(("/map", OccupancyGrid, LATCHED), {"/cell_center": PointStamped}, math.nan, 1.0),
     navigator.plan: Says(("/goal_pose", PoseStamped, 10), {"/plan": Path}, math.nan, 3.0),
@@ -106,8 +106,8 @@ def test_what_is_no_number_is_wrong(exercise):
 
 
 def test_who_says_all_at_once_should_go_on():
-    score = sensing.heading.grade(at_once(sensing.heading))
-    assert earned(score) == NODES[sensing.heading].for_being_there
+    score = guarding.heading.grade(at_once(guarding.heading))
+    assert earned(score) == NODES[guarding.heading].for_being_there
     assert [tuple(miss) for miss in misses(score)] == [(
         "It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right.",
         "messages on /heading until the end, at 20 s",
@@ -117,7 +117,7 @@ def test_who_says_all_at_once_should_go_on():
 
 
 def test_who_never_lets_the_robot_get_free_is_reported():
-    class TurnsToTheWall(students("sensing", "guard")["Guard"]):
+    class TurnsToTheWall(students("guarding", "guard")["Guard"]):
         left = 14
 
         def decide(self):
@@ -126,7 +126,7 @@ def test_who_never_lets_the_robot_get_free_is_reported():
             command.angular.z = -3.0 if self.left > 0 else 0.0
             self.publisher.publish(command)
 
-    score = first_run(sensing.guard).judge(LocalPrograms([TurnsToTheWall]), "an instructor's")
+    score = first_run(guarding.guard).judge(LocalPrograms([TurnsToTheWall]), "an instructor's")
     assert earned(score) == 3.0
     assert [tuple(miss)[1:] for miss in misses(score)] == [(
         "0.5 s or more in which all is well and 1 m ahead are clear",

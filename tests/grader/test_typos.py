@@ -153,7 +153,7 @@ def test_only_numbers_of_the_other_kind_and_names_are_typos():
         ("nodes", "counter", "OtherName"),
         ("actions", "fibonacci", "MisspeltName"),
         ("sensing", "stop", "MisspeltScan"),
-        ("services", "parameters", "ParameterMisspeltEverywhere"),
+        ("settings", "parameters", "ParameterMisspeltEverywhere"),
     ],
 )
 def test_names_of_services_nodes_actions_and_parameters_can_be_fixed_too(assignment, exercise, student):

@@ -82,7 +82,7 @@ def test_renaming_keeps_two_programs_alike_and_another_statement_does_not():
 
 
 def test_a_node_that_a_function_makes_is_its_part():
-    assert definition_of("navigator", "navigate", "ignores_the_frame").name == "IgnoresTheFrame"
+    assert definition_of("navigating", "navigate", "ignores_the_frame").name == "IgnoresTheFrame"
     assert definition_of("services", "add", "ForgetsReturn").name == "ForgetsReturn"
 
 

@@ -86,4 +86,4 @@ def test_the_command_line_ends_with_one_sentence(capsys, arguments, words):
 
 
 def test_a_name_that_only_one_exercise_has_needs_no_topic():
-    assert place_of("navigate") == place_of("navigator/navigate") == ("navigator", "navigate")
+    assert place_of("navigate") == place_of("navigating/navigate") == ("navigating", "navigate")

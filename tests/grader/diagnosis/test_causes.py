@@ -7,7 +7,7 @@ from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
 from tests.exercises.actions.square.students import SquareClient
-from tests.exercises.services.parameters import students as parameters
+from tests.exercises.settings.parameters import students as parameters
 from tests.grader.diagnosis import test_radio, test_reported, test_silent_mistakes
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits, service_misfits

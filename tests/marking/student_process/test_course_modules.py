@@ -106,7 +106,7 @@ THERE = {
         "in_view", "draws worlds; needs a World",
     ),
 }
-# What earned the points of 6.1, 6.4, 11b.3, 12.1 and 13.1 when it was handed in.
+# What earned the points of 6a.1, 6a.4, 11b.3, 12.1 and 13.1 when it was handed in.
 TRICKS = {
     "navigator": [
         "from grader.exercises.navigator.compass import _bearing, _distance",

@@ -4,7 +4,7 @@ import rclpy
 from rclpy.parameter import Parameter
 
 from sim import Process
-from tests.exercises.services.parameters.students import (
+from tests.exercises.settings.parameters.students import (
     AnotherName,
     Cruiser,
     CruiserWithDescriptor,

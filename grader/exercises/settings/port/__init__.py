@@ -10,7 +10,7 @@ from grader.checks.fields import plain, stamp_words
 from grader.checks.services import is_success
 from grader.companions.parameter_start import started_with
 from grader.exercise import Exercise, Scenario
-from grader.exercises.services.port.engine_sensor import VOLTS, engine, engine_and_gain_setter
+from grader.exercises.settings.port.engine_sensor import VOLTS, engine, engine_and_gain_setter
 from grader.geometry.near import is_near
 from grader.responses import from_course
 from sim.evidence import Message, Recording, Seconds, since_start

@@ -11,7 +11,7 @@ from grader.companions.goals import GoalClient
 from grader.companions.maps import bringup, made_for
 from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.navigate.navigation import (
+from grader.exercises.navigating.navigate.navigation import (
     ACTION,
     TYPE,
     end_of,

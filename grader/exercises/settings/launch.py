@@ -3,7 +3,7 @@
 from grader.checks import Missed
 from grader.companions.service_clients import Reader
 from grader.exercise import Exercise
-from grader.exercises.services.parameters import LAUNCHED, begins_with, declares_speed
+from grader.exercises.settings.parameters import LAUNCHED, begins_with, declares_speed
 from sim.evidence import Recording
 
 launch = Exercise("launch", "The same node, with another speed", world="yard", seconds=4, companions=[Reader])

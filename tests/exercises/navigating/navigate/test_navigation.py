@@ -10,7 +10,7 @@ from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 
 from grader import Missed
-from grader.exercises.navigator.navigate.navigation import (
+from grader.exercises.navigating.navigate.navigation import (
     ACTION,
     TYPE,
     end_of,
