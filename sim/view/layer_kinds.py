@@ -24,10 +24,12 @@ KINDS = {
     "geometry_msgs/msg/PoseWithCovarianceStamped": "pose",
     "nav_msgs/msg/Odometry": "pose",
     "geometry_msgs/msg/PoseArray": "cloud",
+    "nav2_msgs/msg/ParticleCloud": "cloud",
     "sensor_msgs/msg/Image": "image",
     "tf2_msgs/msg/TFMessage": "frames",
 }
 QUIET = frozenset({"pose", "cloud", "image", "frames"})  # drawn where the reader asks for them
+OPEN = "/particle_cloud"  # a quiet layer that is drawn until the reader hides it
 CELLS, POINTS, CLOUD = 160_000, 200, 120  # limits of a map, a plan and a cloud of poses
 FAR = 10_000.0  # m; farther than anything in a world
 PIXELS, QUALITY = 160, 50  # the width of a stored image; smaller ones are doubled, to keep their colors
@@ -104,8 +106,8 @@ def _pose(message: Any, place: Placement) -> list[float]:
 
 
 def _cloud(message: Any, place: Placement) -> list[list[float]]:
-    poses = thinned(message.poses, CLOUD)
-    return [[round(value, 2) for value in meters(*_on_map(place, pose))] for pose in poses]
+    poses = message.poses if hasattr(message, "poses") else [one.pose for one in message.particles]
+    return [[round(value, 2) for value in meters(*_on_map(place, pose))] for pose in thinned(poses, CLOUD)]
 
 
 def _on_map(place: Placement, pose: Any) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ from sim.view.packing import differences
 from sim.view.strokes import thinned
 from sim.world import World
 
-MOST = {"map": 6, "plan": 60, "goal": 60, "pose": 120, "frames": 120, "cloud": 24, "image": 12}
+MOST = {"map": 6, "plan": 60, "goal": 60, "pose": 120, "frames": 120, "cloud": 40, "image": 12}
 TF = "/tf"  # stands for all frames
 TOPICS, FRAMES, NAME = 8, 20, 200  # limits of topics, frames, and characters of a name
 UNITS = {"pose": (1e3, 1e3, 1e3, 1e6, 1e6, 1e6), "frames": (1e3,) * 6}  # of stored whole numbers

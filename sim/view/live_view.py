@@ -18,6 +18,7 @@ from sim.evidence import Recording
 from sim.notebook import failure_html, failure_lines, notebook_page
 from sim.view.graph_data import graph_data
 from sim.view.javascript import script
+from sim.view.layer_kinds import OPEN
 from sim.view.layers import NewestLayers
 from sim.view.replay import replay
 from sim.view.strokes import visible_strokes
@@ -54,7 +55,7 @@ class LiveView(anywidget.AnyWidget):
     status = traitlets.Dict().tag(sync=True)
     layers = traitlets.List().tag(sync=True)  # maps, plans and goals
     quiet = traitlets.List().tag(sync=True)  # the layers that the page may ask for: topics and their kinds
-    shown = traitlets.List(traitlets.Unicode(), maxlen=MAX_SHOWN).tag(sync=True)  # those it asks for
+    shown = traitlets.List(traitlets.Unicode(), [OPEN], maxlen=MAX_SHOWN).tag(sync=True)  # it asks for these
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
     inputs = traitlets.List(traitlets.Unicode()).tag(sync=True)  # what nodes read besides: "keys", "points"
 

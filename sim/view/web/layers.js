@@ -4,6 +4,7 @@
 
 const MOST_CELLS = 2e5;
 const QUIET = ["pose", "cloud", "image", "frames"]; // drawn where the reader asks for them
+const OPEN = "/particle_cloud"; // a quiet layer that is drawn until the reader hides it
 const BASE64 = /^[A-Za-z0-9+/=]*$/;
 const DATA = {
   map: ({ width, place, runs }) => {
@@ -46,7 +47,7 @@ class LayerChoice {
 
   /** @param {{ topic: string, kind: string }} layer */
   shows({ topic, kind }) {
-    return this.chosen.get(topic) ?? !QUIET.includes(kind);
+    return this.chosen.get(topic) ?? (!QUIET.includes(kind) || topic === OPEN);
   }
 
   /** Offer these layers. @param {{ topic: string, kind: string, data?: any }[]} layers */
