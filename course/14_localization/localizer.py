@@ -19,7 +19,10 @@ from tf2_ros import Buffer, TransformBroadcaster, TransformException, TransformL
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TOLERANCE = Duration(seconds=0.2)  # so long a transform is good for. In AMCL: transform_tolerance
-MOVED, TURNED = 0.1, 0.1  # m, rad: until then, a new scan says nothing new. In AMCL: update_min_d, update_min_a
+MOVED, TURNED = (
+    0.1,
+    0.1,
+)  # m, rad: until then, a new scan says nothing new. In AMCL: update_min_d, update_min_a
 KEPT = 0, 1, 5  # of the six rows of a message's covariance: x, y and yaw
 
 
@@ -28,11 +31,13 @@ class Localizer(Node):
 
     count = 500  # particles. In AMCL: max_particles
     beams = 30  # rays of a scan that it uses. In AMCL: max_beams
+    everywhere = False  # whether it begins all over the map, in place of waiting for /initialpose
 
     def __init__(self):
         super().__init__("localizer")
         self.rng = np.random.default_rng()
         self.filter = self.odometry = self.weighed_at = None
+        self.begun = self.everywhere
         self.buffer = Buffer()
         self.listener = TransformListener(self.buffer, self)
         self.broadcaster = TransformBroadcaster(self)
@@ -46,7 +51,7 @@ class Localizer(Node):
     # -- what it receives --
 
     def on_map(self, msg):
-        """Begin with particles all over the map."""
+        """Make a filter, with particles all over the map."""
         cells = np.array(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
         origin = msg.info.origin.position.x, msg.info.origin.position.y
         self.filter = ParticleFilter(cells, msg.info.resolution, origin, self.count, self.rng)
@@ -57,7 +62,7 @@ class Localizer(Node):
             covariance = np.reshape(msg.pose.covariance, (6, 6))[np.ix_(KEPT, KEPT)]
             position, yaw = msg.pose.pose.position, yaw_of(msg.pose.pose.orientation)
             self.filter.start((position.x, position.y, yaw), covariance)
-            self.weighed_at = None
+            self.begun, self.weighed_at = True, None
 
     def on_scan(self, scan):
         """Move the particles as the odometry has moved, weigh them, and publish the result."""
@@ -66,7 +71,7 @@ class Localizer(Node):
             lidar = self.where("base_link", scan.header.frame_id, scan.header.stamp)
         except TransformException:
             return  # not known yet; the next scan comes soon
-        if self.filter is None:
+        if self.filter is None or not self.begun:
             return
         if self.odometry is not None:
             self.filter.move(compose(inverse(self.odometry), odometry))
@@ -115,7 +120,7 @@ class Localizer(Node):
 
     def publish_cloud(self):
         """Publish all particles, for people to look at."""
-        if self.filter is None:
+        if self.filter is None or not self.begun:
             return
         cloud = ParticleCloud()
         cloud.header.frame_id, cloud.header.stamp = "map", self.get_clock().now().to_msg()

@@ -1,13 +1,17 @@
 """Programs that drive the robot, without looking where: Twist on /cmd_vel, ten times a second."""
 
 import functools
+import math
 import random
 from collections.abc import Callable
+from typing import ClassVar
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 
 from grader.companions.drivers import Speeds, TimedNode, twist
+
+HALF_TURN = 3.0  # s
 
 
 class BlindDriver(TimedNode):
@@ -117,3 +121,29 @@ class Turner(BlindDriver):
 def turner(seed: int) -> list[Callable[[], Node]]:
     """Return the program of a seed, as companions of a run."""
     return [functools.partial(Turner, seed)]
+
+
+class Rounds(BlindDriver):
+    """Drives one circle after another, to the left."""
+
+    speeds: ClassVar[Speeds] = (0.3, 0.5)
+
+    def __init__(self) -> None:
+        super().__init__("rounds")
+
+    def command(self, now: float) -> Speeds:
+        """Always the same."""
+        return self.speeds
+
+
+class Shuttle(BlindDriver):
+    """Drives ahead for `leg` seconds, turns around, drives back, and so on."""
+
+    leg: ClassVar[float] = 9.0
+
+    def __init__(self) -> None:
+        super().__init__("shuttle")
+
+    def command(self, now: float) -> Speeds:
+        """Ahead, or half a turn."""
+        return (0.4, 0.0) if now % (self.leg + HALF_TURN) < self.leg else (0.0, math.pi / HALF_TURN)

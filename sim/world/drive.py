@@ -88,6 +88,13 @@ class Drive:
         _set_velocity(self._wheels, (stride * math.cos(heading), stride * math.sin(heading)))
         _set_angular_velocity(self._wheels, w)
 
+    def place(self, x: float, y: float, yaw: float) -> None:
+        """Put the robot down at a pose in the map (m, rad); its odometry doesn't notice."""
+        body = self.body
+        body.position, body.angle = (x, y), yaw
+        body.velocity, body.angular_velocity = (0.0, 0.0), 0.0
+        body.space.reindex_shapes_for_body(body)
+
     @property
     def odometry(self) -> Odometry:
         """Wheel odometry, starting at the model's `odometry`; it drifts once an obstacle held the robot."""

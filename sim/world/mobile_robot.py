@@ -62,6 +62,7 @@ class MobileRobot(Drive):
         self.battery = Battery(world.battery, world.chargers[name]) if world.battery else None
         self._lever, self._steps = world.robot.track_width / 2, 0
         self.odometry_error = OdometryError()
+        self._carries = sorted(world.robot.carried if number == 0 else (), reverse=True)  # still to come
 
     @property
     def pose(self) -> Pose:
@@ -88,6 +89,8 @@ class MobileRobot(Drive):
     def roll(self) -> None:
         """Work like `Drive.roll`, with what is lost while something touches the robot."""
         self.odometry_error.update(self._v, self._w, self.log.is_touched)
+        if self._carries and self._context.time >= self._carries[-1][0]:
+            self.place(*self._carries.pop()[1:])
         super().roll()
 
     @property

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from sim.world.obstacles import Point, ring
-from sim.world.validated_model import Angle, Constraint, Coordinate, Length, Model, positive, within
+from sim.world.validated_model import Angle, Constraint, Coordinate, Length, Model, at_least, positive, within
 
 Pose = tuple[Coordinate, Coordinate, Angle]
+Carry = tuple[Annotated[float, at_least(0, "s")], Coordinate, Coordinate, Angle]
 
 RATE = 100
 """Physics steps per second."""
@@ -33,7 +34,9 @@ class CommandError(ValueError):
 class RobotModel(Model):
     """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N).
 
-    With `stamped` it subscribes to /cmd_vel as geometry_msgs/TwistStamped, otherwise as geometry_msgs/Twist.
+    `carried` lists when someone lifts it and puts it down elsewhere, as [time, x, y, yaw] (s, map frame): its
+    wheels and its odometry don't notice. With `stamped` it subscribes to /cmd_vel as
+    geometry_msgs/TwistStamped, otherwise as geometry_msgs/Twist.
     """
 
     radius: Length = 0.1
@@ -50,6 +53,7 @@ class RobotModel(Model):
     friction: Annotated[float, within(0, 10)] = 0.3
     stamped: Annotated[bool, Constraint("true or false")] = False
     odometry: Annotated[Pose, Constraint("[x, y, yaw] (meters and radians)")] = (0.0, 0.0, 0.0)  # at time 0
+    carried: Annotated[tuple[Carry, ...], Constraint("a list of [time, x, y, yaw] (s, meters, radians)")] = ()
 
     @property
     def inertia(self) -> float:

@@ -236,6 +236,8 @@ test("maps, plans and goals are shown until the reader hides them; poses, clouds
   const shows = (kind) => LayerChoice.prototype.shows.call({ chosen: new Map([["/b", true]]) }, { topic: "/a", kind });
   assert.deepEqual(["map", "plan", "goal", "pose", "cloud", "frames", "image"].map(shows), [true, true, true, false, false, false, false]);
   assert.equal(LayerChoice.prototype.shows.call({ chosen: new Map([["/b", false]]) }, { topic: "/b", kind: "map" }), false);
+  const cloud = { topic: "/particle_cloud", kind: "cloud" };
+  assert.deepEqual([[], [["/particle_cloud", false]]].map((chosen) => LayerChoice.prototype.shows.call({ chosen: new Map(chosen) }, cloud)), [true, false]);
 });
 
 test("an image that is no base64 is refused", () => {

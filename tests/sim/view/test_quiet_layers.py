@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from geometry_msgs.msg import Pose, PoseArray, PoseWithCovarianceStamped, TransformStamped
+from nav2_msgs.msg import Particle, ParticleCloud
 from nav_msgs.msg import Odometry
 from PIL import Image as Picture
 from sensor_msgs.msg import Image
@@ -120,6 +121,18 @@ def test_a_cloud_has_a_limited_number_of_poses():
     (layer,) = quiet_layers(in_a_world(published("/particle_cloud", [(1.0, message)])))["seen"]
     assert (layer["kind"], len(layer["data"])) == ("cloud", 120)
     assert layer["data"][0] == [0.0, 1.0, 0.1]
+
+
+def test_the_particles_of_a_filter_are_a_cloud_that_is_shown_until_the_reader_hides_it():
+    poses = [turned(Pose(), 0.01 * index, 1.0, 0.1) for index in range(500)]
+    message = ParticleCloud(particles=[Particle(pose=pose, weight=0.002) for pose in poses])
+    message.header.frame_id = "map"
+    recording = in_a_world(published("/particle_cloud", [(1.0, message)]))
+    (layer,) = quiet_layers(recording)["seen"]
+    assert (layer["kind"], len(layer["data"]), layer["data"][0]) == ("cloud", 120, [0.0, 1.0, 0.1])
+    view = LiveView(recording.world)
+    assert view.shown == ["/particle_cloud"]
+    view.close()
 
 
 def in_a_world(recording):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.world import Body, LidarModel, OtherRobot, Simulation, World, WorldError
+from sim.world import Body, LidarModel, OtherRobot, RobotModel, Simulation, World, WorldError
 
 QUIET = LidarModel(noise=0)
 
@@ -147,3 +147,24 @@ def test_robots_that_cannot_be_together(robots, sentence):
         replace(World.load("yard"), robots=robots)
     assert str(caught.value).startswith("World: robots is [OtherRobot(name=")
     assert str(caught.value).endswith(f"; {sentence}")
+
+
+def test_a_robot_that_is_carried_away_does_not_notice_it():
+    model = RobotModel(carried=[[2.0, 3.0, -1.0, 0.5], [1.0, -3.0, 1.0, math.pi / 2]])
+    carried, left = simulation(robot=model), simulation()
+    for one in (carried, left):
+        drive(one, 1.5, robot=(0.5, 0.0))
+    x, y, yaw = carried.robot.pose
+    assert (x, yaw) == pytest.approx((-3.0, math.pi / 2))
+    assert y == pytest.approx(1.0 + 0.5 * 0.5, abs=0.05)  # it stood still for a moment
+    drive(carried, 2.0, robot=(0.0, 0.0))
+    drive(carried, 3.0, robot=(0.0, 0.0))
+    assert carried.robot.pose == pytest.approx((3.0, -1.0, 0.5))
+    drive(left, 3.0, robot=(0.0, 0.0))
+    assert carried.robot.odometry == left.robot.odometry
+
+
+def test_only_the_first_robot_is_carried():
+    both = simulation(OtherRobot("leader", (0, 2, 0)), robot=RobotModel(carried=[[0.5, 1.0, 1.0, 0.0]]))
+    both.advance(1.0)
+    assert [robot.pose for robot in both.robots.values()] == [(1.0, 1.0, 0.0), (0.0, 2.0, 0.0)]

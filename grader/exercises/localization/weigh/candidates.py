@@ -41,9 +41,8 @@ def visited(seed: int) -> tuple[World, World]:
         x=round(draw.choice((-1.0, 1.0)) * draw.uniform(0.03, 0.06), 2), y=round(-side * 0.05, 2),
         yaw=round(draw.choice((-1.0, 1.0)) * draw.uniform(1.0, 2.6), 2),
     )
-    x, y, yaw = known.start
     post = Circle(*_beside(known.start, side * 1.2, 0.21), POST)
-    crate = Box(*_beside(known.start, -side * draw.uniform(0.3, 1.0), 0.75), yaw, CRATE, CRATE)
+    crate = Box(*_beside(known.start, -side * draw.uniform(0.3, 1.0), 0.75), known.start[2], CRATE, CRATE)
     known = replace(known, name=f"visited_{seed}")
     return replace(known, boxes=(*known.boxes, crate), circles=(*known.circles, post), lidar=lidar), known
 

@@ -15,11 +15,11 @@ from sensor_msgs.msg import Range
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def yaw_of(turn):
+def _yaw_of(turn):
     return 2 * math.atan2(turn.z, turn.w)
 
 
-def pose_of(x, y, yaw):
+def _pose_of(x, y, yaw):
     pose = Pose()
     pose.position.x, pose.position.y = float(x), float(y)
     pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
@@ -29,7 +29,7 @@ def pose_of(x, y, yaw):
 class Cloud(Node):
     """As in the solution; the others change one thing each."""
 
-    count, along, aside, bend, turns, sigma = 300, 0.02, 0.002, 0.002, 0.01, 0.15
+    count, along, aside, bend, turns, sigma = 400, 0.02, 0.002, 0.002, 0.01, 0.15
 
     def __init__(self):
         super().__init__("cloud")
@@ -47,7 +47,7 @@ class Cloud(Node):
         self.beacon = msg.point.x, msg.point.y
 
     def on_initialpose(self, msg):
-        position, yaw = msg.pose.pose.position, yaw_of(msg.pose.pose.orientation)
+        position, yaw = msg.pose.pose.position, _yaw_of(msg.pose.pose.orientation)
         covariance = np.reshape(msg.pose.covariance, (6, 6))[np.ix_((0, 1, 5), (0, 1, 5))]
         self.draw((position.x, position.y, yaw), covariance)
 
@@ -65,11 +65,11 @@ class Cloud(Node):
         cloud = ParticleCloud()
         cloud.header.frame_id, cloud.header.stamp = "map", self.get_clock().now().to_msg()
         pairs = zip(self.poses.tolist(), self.weights().tolist(), strict=True)
-        cloud.particles = [Particle(pose=pose_of(*pose), weight=weight) for pose, weight in pairs]
+        cloud.particles = [Particle(pose=_pose_of(*pose), weight=weight) for pose, weight in pairs]
         self.publisher.publish(cloud)
 
     def on_odom(self, msg):
-        position, yaw = msg.pose.pose.position, yaw_of(msg.pose.pose.orientation)
+        position, yaw = msg.pose.pose.position, _yaw_of(msg.pose.pose.orientation)
         before, self.odometry = self.odometry, (position.x, position.y, yaw)
         if before is not None and len(self.poses):
             self.move(before, self.odometry)
@@ -194,7 +194,7 @@ class Lumped(Cloud):
             self.begun = None
 
 
-class Guess:
+class _Guess:
     """One particle of a list."""
 
     def __init__(self, x, y, yaw):
@@ -211,7 +211,7 @@ class Objects(Cloud):
 
     def draw(self, pose, covariance):
         deviations = np.sqrt(np.diag(covariance))
-        self.guesses = [Guess(*map(random.gauss, pose, deviations)) for _ in range(self.count)]
+        self.guesses = [_Guess(*map(random.gauss, pose, deviations)) for _ in range(self.count)]
         self.logs = np.zeros(self.count)
 
     @property
@@ -220,7 +220,7 @@ class Objects(Cloud):
 
     @poses.setter
     def poses(self, rows):
-        self.guesses = [Guess(*row) for row in rows]
+        self.guesses = [_Guess(*row) for row in rows]
 
     def advance(self, forward, left, turn):
         for one, *step in zip(self.guesses, forward, left, turn, strict=True):

@@ -17,11 +17,11 @@ from tf2_ros import Buffer, TransformListener
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def yaw_of(turn):
+def _yaw_of(turn):
     return 2 * math.atan2(turn.z, turn.w)
 
 
-def field_of(cells, resolution, most=0.5):
+def _field_of(cells, resolution, most=0.5):
     field = np.full(cells.shape, most)
     rows, columns = np.nonzero(cells == 100)
     reach = math.ceil(most / resolution)
@@ -54,23 +54,22 @@ class Weigher(Node):
         cells = np.array(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
         self.resolution = msg.info.resolution
         self.origin = msg.info.origin.position.x, msg.info.origin.position.y
-        self.field = field_of(cells, self.resolution, self.most)
+        self.field = _field_of(cells, self.resolution, self.most)
 
     def on_scan(self, msg):
         self.scan = msg
 
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         particles = [
-            Particle(pose=pose, weight=float(weight))
-            for pose, weight in zip(msg.poses, weights, strict=True)
+            Particle(pose=pose, weight=float(weight)) for pose, weight in zip(msg.poses, weights, strict=True)
         ]
         self.publisher.publish(ParticleCloud(header=msg.header, particles=particles))
 
     def mounting(self):
         found = self.buffer.lookup_transform("base_link", self.scan.header.frame_id, Time()).transform
-        return found.translation.x, found.translation.y, yaw_of(found.rotation)
+        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
 
     def hits(self, ranges):
         return np.isfinite(ranges)
@@ -190,7 +189,7 @@ def main_with_static_frames():
     def on_static(msg):
         for one in msg.transforms:
             move = one.transform
-            mounted[one.child_frame_id] = move.translation.x, move.translation.y, yaw_of(move.rotation)
+            mounted[one.child_frame_id] = move.translation.x, move.translation.y, _yaw_of(move.rotation)
 
     helper.publisher = publisher
     node.create_subscription(TFMessage, "/tf_static", on_static, LATCHED)
@@ -223,10 +222,12 @@ class DenseIsRight(Weigher):
 
 
 class ProductUnderflows(Weigher):
-    every, random, sigma = 1, 1e-3, 0.03
+    """Multiplies the densities of all rays: 0.1 for one that ends anywhere within 10 m."""
+
+    every = 1
 
     def weights(self, guesses):
-        product = np.prod(self.probabilities(guesses), axis=1)
+        product = np.prod(0.1 * self.probabilities(guesses), axis=1)
         return product / product.sum()
 
 
@@ -309,7 +310,7 @@ class OnlyTheBest(Weigher):
     """Publishes the poses that count, the heaviest first."""
 
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         order = np.argsort(-weights)[:50]
         share = weights[order] / weights[order].sum()
@@ -320,7 +321,7 @@ class OnlyTheBest(Weigher):
 
 class Sorted(Weigher):
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         order = np.argsort(-weights)
         pairs = zip([msg.poses[int(one)] for one in order], weights[order], strict=True)
