@@ -32,6 +32,7 @@ SHOWN = {
     "13_delivery/faults": ("wrong-run", "world"),
     "14_localization/lesson": ("truth-run", "world"),
     "14_localization/covariance": ("whole-run", "world"),
+    "14_localization/localization": ("whole-run", "world"),
 }
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
 

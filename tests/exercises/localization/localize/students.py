@@ -1,0 +1,241 @@
+"""Localizations that publish where odom is: right ones, and wrong ones named after their defect."""
+
+import math
+
+import numpy as np
+import rclpy
+import tf_transformations
+from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_msgs.msg import TFMessage
+from tf2_ros import (
+    Buffer,
+    StaticTransformBroadcaster,
+    TransformBroadcaster,
+    TransformException,
+    TransformListener,
+)
+
+TOLERANCE = Duration(seconds=0.5)
+
+
+def _yaw_of(turn):
+    return 2 * math.atan2(turn.z, turn.w)
+
+
+class Localization(Node):
+    """As in the solution; the others change one thing each."""
+
+    parent, child = "map", "odom"
+    broadcaster_class = TransformBroadcaster
+
+    def __init__(self):
+        super().__init__("localization")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.broadcaster = self.broadcaster_class(self)
+        self.publisher = self.create_publisher(PoseWithCovarianceStamped, "/amcl_pose", 10)
+        for topic in ("/initialpose", "/scan_pose"):
+            self.create_subscription(PoseWithCovarianceStamped, topic, self.on_pose, 10)
+
+    def on_pose(self, msg):
+        self.report(msg)
+        position = msg.pose.pose.position
+        pose = position.x, position.y, _yaw_of(msg.pose.pose.orientation)
+        self.send(self.product(pose, self.odometry(msg.header.stamp)), self.stamp(msg))
+
+    def report(self, msg):
+        self.publisher.publish(msg)
+
+    def odometry(self, stamp):
+        try:
+            found = self.buffer.lookup_transform("odom", "base_link", stamp).transform
+        except TransformException:
+            found = self.buffer.lookup_transform("odom", "base_link", Time()).transform
+        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
+
+    def product(self, pose, odometry):
+        turn = pose[2] - odometry[2]
+        cos, sin = math.cos(turn), math.sin(turn)
+        x, y = odometry[:2]
+        return pose[0] - cos * x + sin * y, pose[1] - sin * x - cos * y, turn
+
+    def stamp(self, msg):
+        return (Time.from_msg(msg.header.stamp) + TOLERANCE).to_msg()
+
+    def send(self, place, stamp):
+        sent = TransformStamped(child_frame_id=self.child)
+        sent.header.frame_id, sent.header.stamp = self.parent, stamp
+        sent.transform.translation.x, sent.transform.translation.y = place[:2]
+        sent.transform.rotation.z, sent.transform.rotation.w = math.sin(place[2] / 2), math.cos(place[2] / 2)
+        self.broadcaster.sendTransform(sent)
+
+
+class Matrices(Localization):
+    """4 by 4 matrices of tf_transformations."""
+
+    def product(self, pose, odometry):
+        def matrix(x, y, yaw):
+            made = tf_transformations.euler_matrix(0.0, 0.0, yaw)
+            made[:2, 3] = x, y
+            return made
+
+        found = matrix(*pose) @ np.linalg.inv(matrix(*odometry))
+        return found[0, 3], found[1, 3], math.atan2(found[1, 0], found[0, 0])
+
+
+class Complex(Localization):
+    """A design of its own: points are complex numbers, and a rotation is a factor."""
+
+    def product(self, pose, odometry):
+        turn = pose[2] - odometry[2]
+        place = complex(*pose[:2]) - complex(*odometry[:2]) * complex(math.cos(turn), math.sin(turn))
+        return place.real, place.imag, turn
+
+
+class InverseFromTf(Localization):
+    """A design of its own: the buffer gives the inverse, odom in base_link."""
+
+    def odometry(self, stamp):
+        try:
+            found = self.buffer.lookup_transform("base_link", "odom", stamp).transform
+        except TransformException:
+            found = self.buffer.lookup_transform("base_link", "odom", Time()).transform
+        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
+
+    def product(self, pose, back):
+        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        x, y = back[:2]
+        return pose[0] + cos * x - sin * y, pose[1] + sin * x + cos * y, pose[2] + back[2]
+
+
+class OdometryByHand(Localization):
+    """A design of its own: /odom with its stamps in a list, and no buffer."""
+
+    def __init__(self):
+        super().__init__()
+        self.history = []
+        self.create_subscription(Odometry, "/odom", self.on_odom, 10)
+
+    def on_odom(self, msg):
+        pose = msg.pose.pose
+        here = pose.position.x, pose.position.y, _yaw_of(pose.orientation)
+        self.history = [*self.history[-100:], (Time.from_msg(msg.header.stamp).nanoseconds, here)]
+
+    def odometry(self, stamp):
+        wanted = Time.from_msg(stamp).nanoseconds
+        return min(self.history, key=lambda row: abs(row[0] - wanted))[1]
+
+
+def main_with_a_publisher():
+    """A design of its own: a publisher in place of the broadcaster."""
+    rclpy.init()
+    node = Localization()
+    publisher = node.create_publisher(TFMessage, "/tf", 10)
+    node.broadcaster.sendTransform = lambda sent: publisher.publish(TFMessage(transforms=[sent]))
+    rclpy.spin(node)
+
+
+# -- wrong ones --
+
+
+class Silent(Localization):
+    def on_pose(self, msg):
+        pass
+
+
+class TwoParents(Localization):
+    """Publishes where base_link is in map, though base_link has a parent."""
+
+    child = "base_link"
+
+    def product(self, pose, odometry):
+        return pose
+
+
+class BaseForOdom(Localization):
+    def product(self, pose, odometry):
+        return pose
+
+
+class Static(Localization):
+    broadcaster_class = StaticTransformBroadcaster
+
+
+class OtherWayRound(Localization):
+    parent, child = "odom", "map"
+
+
+class WrongOrder(Localization):
+    def product(self, pose, odometry):
+        cos, sin = math.cos(odometry[2]), math.sin(odometry[2])
+        dx, dy = pose[0] - odometry[0], pose[1] - odometry[1]
+        return cos * dx + sin * dy, cos * dy - sin * dx, pose[2] - odometry[2]
+
+
+class NotInverted(Localization):
+    def product(self, pose, odometry):
+        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        x, y = odometry[:2]
+        return pose[0] + cos * x - sin * y, pose[1] + sin * x + cos * y, pose[2] + odometry[2]
+
+
+class Subtracts(Localization):
+    def product(self, pose, odometry):
+        return tuple(a - b for a, b in zip(pose, odometry, strict=True))
+
+
+class NewestOdometry(Localization):
+    def odometry(self, stamp):
+        return super().odometry(Time())
+
+
+class StampedNow(Localization):
+    def stamp(self, msg):
+        return self.get_clock().now().to_msg()
+
+
+class NoTolerance(Localization):
+    def stamp(self, msg):
+        return msg.header.stamp
+
+
+class NoStamp(Localization):
+    def stamp(self, msg):
+        return Time().to_msg()
+
+
+class OnlyTheClick(Localization):
+    """Trusts the odometry from the click on."""
+
+    def on_pose(self, msg):
+        if msg.pose.covariance[0] > 0.005:
+            super().on_pose(msg)
+
+
+class CertainPose(Localization):
+    """Publishes a pose without a covariance."""
+
+    def report(self, msg):
+        certain = PoseWithCovarianceStamped(header=msg.header)
+        certain.pose.pose = msg.pose.pose
+        self.publisher.publish(certain)
+
+
+class NoAmclPose(Localization):
+    def report(self, msg):
+        pass
+
+
+class NotARotation(Localization):
+    """Puts the yaw into the quaternion."""
+
+    def send(self, place, stamp):
+        sent = TransformStamped(child_frame_id=self.child)
+        sent.header.frame_id, sent.header.stamp = self.parent, stamp
+        sent.transform.translation.x, sent.transform.translation.y = place[:2]
+        sent.transform.rotation.z = place[2]
+        self.broadcaster.sendTransform(sent)
