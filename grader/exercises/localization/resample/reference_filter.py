@@ -58,7 +58,6 @@ class ReferenceFilter:
         index = np.ix_((0, 1, 5), (0, 1, 5))
         self.poses = self.rng.multivariate_normal(pose, np.reshape(covariance, (6, 6))[index], COUNT)
         self.logs[:] = 0.0
-        self.weighed_at = self.before
 
     def move(self, odometry: Pose2D) -> None:
         """Move each particle as the odometry moved, in its own direction."""
