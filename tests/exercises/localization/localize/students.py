@@ -19,6 +19,7 @@ from tf2_ros import (
     TransformListener,
 )
 
+PARTS = ("_yaw_of",)
 TOLERANCE = Duration(seconds=0.5)
 
 

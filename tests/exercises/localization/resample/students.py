@@ -12,6 +12,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import Range
 
+PARTS = ("_Guess", "_pose_of", "_yaw_of")
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -325,14 +326,6 @@ class WeighsWhileStanding(Cloud):
         return True
 
 
-class WeighsAlone(Cloud):
-    """Replaces the weights instead of multiplying them."""
-
-    def weigh(self, distance):
-        self.logs = np.zeros(self.count)
-        super().weigh(distance)
-
-
 class ProductUnderflows(Cloud):
     sigma = 0.002
 
@@ -343,11 +336,3 @@ class ProductUnderflows(Cloud):
 
     def is_poor(self, weights):
         return bool(np.isfinite(weights).all()) and super().is_poor(weights)
-
-
-class TakesTheBest(Cloud):
-    """Keeps the heaviest half, twice."""
-
-    def chosen(self, weights):
-        best = np.argsort(-weights)[: self.count // 2]
-        return np.concatenate([best, best])

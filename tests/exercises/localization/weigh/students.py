@@ -14,6 +14,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 from tf2_ros import Buffer, TransformListener
 
+PARTS = ("_field_of", "_yaw_of")
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -222,12 +223,12 @@ class DenseIsRight(Weigher):
 
 
 class ProductUnderflows(Weigher):
-    """Multiplies the densities of all rays: 0.1 for one that ends anywhere within 10 m."""
+    """Multiplies the probabilities of all rays, each for one of a hundred distances."""
 
     every = 1
 
     def weights(self, guesses):
-        product = np.prod(0.1 * self.probabilities(guesses), axis=1)
+        product = np.prod(0.01 * self.probabilities(guesses), axis=1)
         return product / product.sum()
 
 
