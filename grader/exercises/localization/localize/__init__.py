@@ -73,7 +73,7 @@ def _fixes(run: Recording) -> list[Message]:
 
 
 def _right(run: Recording, fix: Message) -> Pose2D:
-    """Where odom is in the map by a pose."""
+    """The pose of odom in the map, by a pose of base_link."""
     odometry = _odometry(run, since_start(fix.message.header.stamp))
     return composed(Pose2D.from_message(fix.message.pose.pose), relative(odometry, ORIGIN))
 
@@ -90,7 +90,7 @@ OTHERWISE = f"Look up odom → base_link at the pose's stamp, invert it, and com
 
 
 def _hint(run: Recording, fix: Message, found: Pose2D) -> str:
-    """What a node would do that publishes this in place of the right transform."""
+    """The hint for the mistake that leads to this in place of the right transform."""
     pose, then = Pose2D.from_message(fix.message.pose.pose), since_start(fix.message.header.stamp)
     odometry, now = _odometry(run, then), _odometry(run, fix.stamp)
     back, dx, dy = relative(odometry, ORIGIN), pose.x - odometry.x, pose.y - odometry.y

@@ -87,7 +87,7 @@ class Beacon(Node):
         self.create_timer(0.2, self.measure)
 
     def beacon(self) -> PointStamped:
-        """Where the beacon is."""
+        """The message with the place of the beacon."""
         message = PointStamped()
         message.header.frame_id = "map"
         message.point.x, message.point.y = self.place
