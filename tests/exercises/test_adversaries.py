@@ -15,6 +15,7 @@ from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
 from tests.exercises.test_control import TestControl as Control
 from tests.exercises.test_delivery import TestDelivery as Delivery
+from tests.exercises.test_drawing import TestDrawing as Drawing
 from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_guarding import TestGuarding as Guarding
 from tests.exercises.test_joints import TestJoints as Joints
@@ -33,7 +34,7 @@ from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
-    *(Joints, Frames, Control, Packages, Launching, Testing, Safety, Delivery),
+    *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),

@@ -1,4 +1,4 @@
-"""What the worlds of 08_joints hold for every seed: each task can be done, and each mistake shows."""
+"""What the worlds of 08_joints and 08b_drawing hold for every seed: tasks can be done, mistakes show."""
 
 import itertools
 import math
@@ -6,8 +6,8 @@ import math
 import pytest
 
 from grader.companions.joint_targets import CRUISE, LESSON, NAMES, paths, poses, stations
+from grader.exercises.drawing.draw.figure import figure
 from grader.exercises.joints.careful.lift import plan
-from grader.exercises.joints.draw.figure import figure
 from grader.worlds.arms import EDGE, arm_of, desk_of, joint_of, side_of
 
 SEEDS = range(100)

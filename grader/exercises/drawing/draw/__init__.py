@@ -6,7 +6,7 @@ import math
 from grader.checks import Missed, draws, hinting, keeps_off, otherwise, sends_goals
 from grader.checks.joints import FOLLOW_TRAJECTORY
 from grader.exercise import Exercise
-from grader.exercises.joints.draw.figure import Designer, designer
+from grader.exercises.drawing.draw.figure import Designer, designer
 from grader.geometry import Point
 from grader.geometry.near import is_near
 from grader.responses import from_course, last_before

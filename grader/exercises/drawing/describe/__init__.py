@@ -11,7 +11,7 @@ from tf_transformations import quaternion_from_euler
 from grader.checks import Missed, otherwise, publishes
 from grader.checks.frames import Broadcast, broadcasts
 from grader.exercise import Exercise
-from grader.exercises.joints.describe.pan_tilt_driver import LIMITS, pan_tilt_driver
+from grader.exercises.drawing.describe.pan_tilt_driver import LIMITS, pan_tilt_driver
 from grader.geometry.near import is_near
 from grader.responses import from_course, same
 from sim.evidence import Recording, since_start
