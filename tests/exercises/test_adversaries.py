@@ -20,6 +20,7 @@ from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_guarding import TestGuarding as Guarding
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_launching import TestLaunching as Launching
+from tests.exercises.test_lifecycle import TestLifecycle as Lifecycle
 from tests.exercises.test_navigating import TestNavigating as Navigating
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
@@ -34,7 +35,7 @@ from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
-    *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Delivery),
+    *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Lifecycle, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),

@@ -5,14 +5,14 @@ import itertools
 from grader.checks import Missed, course_calls, hinting, logs, offers, wrong_response
 from grader.checks.services import call_text, has_client, is_success
 from grader.exercise import Exercise, Scenario
-from grader.exercises.safety.bringup.managed_nodes import (
+from grader.exercises.lifecycle.bringup.managed_nodes import (
     NODES,
     SHUTDOWN,
     never_active,
     never_configured,
     robot,
 )
-from grader.exercises.safety.bringup.transitions import (
+from grader.exercises.lifecycle.bringup.transitions import (
     ACTIVE,
     DOWN,
     INACTIVE,

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from grader.checks import Missed, course_calls, hinting, named, serves
 from grader.checks.services import is_refusal, is_success
 from grader.exercise import Exercise, Scenario
-from grader.exercises.safety.motor.motor_manager import CHANGE, SET, MotorManager, StrictManager
+from grader.exercises.lifecycle.motor.motor_manager import CHANGE, SET, MotorManager, StrictManager
 from grader.geometry.near import is_near
 from grader.responses import Window, speeds
 from grader.responses.speeds import STANDING

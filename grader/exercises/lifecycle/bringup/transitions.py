@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from grader.checks import Missed
-from grader.exercises.safety.bringup.managed_nodes import NODES
+from grader.exercises.lifecycle.bringup.managed_nodes import NODES
 from grader.responses import EDGE
 from sim.evidence import Call, Recording, Seconds
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from grader.checks import Missed, publishes, subscribes
 from grader.checks import rate as keeps_rate
 from grader.exercise import Exercise
-from grader.exercises.safety.health.battery_and_motor import BATTERY, MOTOR, BatteryAndMotor
+from grader.exercises.lifecycle.health.battery_and_motor import BATTERY, MOTOR, BatteryAndMotor
 from grader.geometry.near import is_near
 from grader.responses import from_course, last_before
 from sim.evidence import Message, Recording, Seconds, since_start
