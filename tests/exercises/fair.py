@@ -1,4 +1,4 @@
-"""Seeds in which good robots do their work: python -m tests.exercises.fair 13_delivery deliver --first 10
+"""Seeds in which good robots do their work: python -m tests.exercises.fair 13b_delivery deliver --first 10
 
 A warehouse drawn by chance may lie so that no one can do what a scenario asks for. For each seed the
 solution's notebook and all right nodes are run in the scenarios of an exercise, in several orders of what
@@ -47,7 +47,7 @@ def fair(
 def main(words: list[str]) -> None:
     """Print the seeds of each scenario as they are tried: the unfair ones with a minus."""
     parser = argparse.ArgumentParser(prog="python -m tests.exercises.fair", description=__doc__)
-    parser.add_argument("folder", help="an assignment's folder in solutions/, such as 13_delivery")
+    parser.add_argument("folder", help="an assignment's folder in solutions/, such as 13b_delivery")
     parser.add_argument("exercise", help="the name of one with scenarios")
     parser.add_argument("scenarios", nargs="*", help="their names; all of them where none is given")
     parser.add_argument("--count", type=int, default=20, help="how many seeds")

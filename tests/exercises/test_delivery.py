@@ -1,4 +1,4 @@
-"""Score tables of 13_delivery: a page for each exercise in tests/exercises/delivery/."""
+"""Score tables of 13b_delivery: a page for each exercise in tests/exercises/delivery/."""
 
 import ast
 
@@ -14,7 +14,7 @@ from tests.exercises.seeds import fallen_short
 
 
 class TestDelivery(Assignment):
-    folder = "13_delivery"
+    folder = "13b_delivery"
     package = delivery
 
 

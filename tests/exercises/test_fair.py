@@ -47,5 +47,5 @@ def test_a_seed_is_fair_where_nothing_is_missed_in_any_order():
 def test_the_solutions_robot_is_what_its_notebook_lists():
     programs = solution("delivery", "deliver")
     assert [program.__name__ for program in programs] == ["Perception", "Decision", "Control"]
-    with pytest.raises(ValueError, match=r"13_delivery/delivery.ipynb grades no dance$"):
+    with pytest.raises(ValueError, match=r"13b_delivery/delivery.ipynb grades no dance$"):
         solution("delivery", "dance")

@@ -11,7 +11,7 @@ from grader.marking.task import MarkingTask
 from tests.marking.tiny import ROOT
 
 ASSIGNMENTS = sorted(path.name for path in (ROOT / "solutions").glob("[0-9]*"))
-LONG = "05_sensing", "05b_guarding", "06b_navigating", "13_delivery"  # half a minute each, or more
+LONG = "05_sensing", "05b_guarding", "06b_navigating", "13b_delivery"  # half a minute each, or more
 
 
 @pytest.fixture(scope="module")

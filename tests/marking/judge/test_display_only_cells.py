@@ -87,7 +87,7 @@ def test_the_cells_that_look_are_left_out_of_every_assignment(path):
 
 
 def test_the_questions_of_a_shift_are_shown_beside_the_answers():
-    cells = nbformat.read(ROOT / "solutions" / "13_delivery" / "delivery.ipynb", 4).cells
+    cells = nbformat.read(ROOT / "solutions" / "13b_delivery" / "delivery.ipynb", 4).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
     indices = display_only_cells([cell.source for cell in code], set(range(len(code))))
     found = {code[index].id for index in indices}

@@ -106,7 +106,7 @@ THERE = {
         "in_view", "draws worlds; needs a World",
     ),
 }
-# What earned the points of 6a.1, 6a.4, 11b.3, 12.1 and 13.1 when it was handed in.
+# What earned the points of 6a.1, 6a.4, 11b.3, 12a.1 and 13a.1 when it was handed in.
 TRICKS = {
     "navigator": [
         "from grader.exercises.navigator.compass import _bearing, _distance",
@@ -123,7 +123,7 @@ TRICKS = {
         "from grader.exercises.safety.mutants.speed_candidates import _right",
         "safety.workshop(1)[0].args",
     ],
-    "delivery": ["from grader.exercises.delivery.blueprint import TOPICS", "delivery.blueprint.TOPICS"],
+    "warehouse": ["from grader.exercises.warehouse.blueprint import TOPICS", "warehouse.blueprint.TOPICS"],
 }
 ERRORS = "ModuleNotFoundError", "ImportError", "IndexError", "AttributeError", "KeyError"
 

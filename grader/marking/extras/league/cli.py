@@ -32,7 +32,7 @@ Without a NOTEBOOK, these are all submissions of a class, in new warehouses. The
 where the robots have anonymous names; the table on the terminal shows both. With notebooks, for example
 this week's and last week's versions of your own, they work in public warehouses, and the pages are in
 work/league/. The same command resumes after a stop, and runs again only what has changed."""
-ASSIGNMENT = "13_delivery"
+ASSIGNMENT = "13b_delivery"
 INTERRUPTED = 130  # the exit status of shells
 MAX_SECONDS = 2400.0  # s of simulated time in all warehouses together
 MAX_NOTE_CHARS = 100  # of a row's note

@@ -21,7 +21,7 @@ from tests.sim.ros.remote.follower_process import FollowerProcess
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "settings", "actions", "sensing", "guarding", "navigator", "navigating"),
     *("silence", "joints", "drawing", "frames", "control", "packages", "launching", "testing"),
-    *("safety", "lifecycle", "delivery"),
+    *("safety", "lifecycle", "warehouse", "delivery"),
 )
 # They use random numbers, which differ because the other process must not know the run's seed.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")

@@ -12,7 +12,7 @@ from sensor_msgs.msg import BatteryState, Image, LaserScan
 from std_msgs.msg import String
 from warehouse_msgs.msg import Order
 
-from grader.exercises.delivery import LATCHED, publishes, sketch, subscribes
+from grader.exercises.warehouse import LATCHED, publishes, sketch, subscribes
 
 SCAN = subscribes("/scan", LaserScan, qos_profile_sensor_data)
 PEOPLE, OBSTACLES = ("/people", PoseArray), ("/obstacles", PoseArray)

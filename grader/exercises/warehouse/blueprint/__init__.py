@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from grader.checks import Missed
 from grader.exercise import Exercise
-from grader.exercises.delivery.blueprint.planned_nodes import ShelfCamera, publishes, sketch, subscribes
+from grader.exercises.warehouse.blueprint.planned_nodes import ShelfCamera, publishes, sketch, subscribes
 from grader.worlds.warehouses import hall
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
 

@@ -10,7 +10,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Empty, String
 
-from grader.exercises.delivery import shelf_of
+from grader.exercises.warehouse import shelf_of
 
 PARTS = ("Shelves", "spinning", "in_event_loop", "AwaitsInTheCallback", "ForgetsAwait", "NewestLabel",
          "CancelsTheLast", "OtherTopic", "NoLabels", "CopiesTheFormula")  # fmt: skip

@@ -8,7 +8,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from grader.companions.schedule import Row, Schedule
-from grader.exercises.delivery.shelves.parcel_library import FOUND, QUERIES
+from grader.exercises.warehouse.shelves.parcel_library import FOUND, QUERIES
 from sim.evidence import Seconds
 
 WITH_JUDGE = True  # it knows all shelves

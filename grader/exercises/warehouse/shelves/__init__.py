@@ -5,8 +5,8 @@ from grader.checks.ends import declared
 from grader.checks.topics import longest_pause
 from grader.checks.work import worked_until
 from grader.exercise import Exercise
-from grader.exercises.delivery.shelves.parcel_database import LABELS, scanner, seconds_for, stored
-from grader.exercises.delivery.shelves.parcel_library import shelf_of
+from grader.exercises.warehouse.shelves.parcel_database import LABELS, scanner, seconds_for, stored
+from grader.exercises.warehouse.shelves.parcel_library import shelf_of
 from grader.responses import EDGE, from_course, from_student, text_of
 from sim.evidence import Message, Recording, Seconds
 
@@ -31,7 +31,7 @@ def has_its_endpoints(run: Recording) -> None:
 
 
 @shelves.check(3, after=has_its_endpoints, hints={
-    "That is the coroutine itself: without `await` it doesn't start. Write await delivery.shelf_of(label).":
+    "That is the coroutine itself: without `await` it doesn't start. Write await warehouse.shelf_of(label).":
         lambda run, label, texts: any("coroutine" in text for text in texts),
     "A shelf was published with another parcel's label. Several coroutines run at the same time, so "
     "each needs its own label: pass it as an argument.":
