@@ -97,6 +97,10 @@ RULES = (
         "`def {0}(self, msg):`.",
     ),
     Rule(
+        "TypeError", r"\b(on_(?:configure|(?:de)?activate|cleanup|shutdown|error))\(\) takes 1 positional",
+        "A transition's method is called with the state before it: write `def {0}(self, state):`.",
+    ),
+    Rule(
         "TypeError", r"(\w+)\(\) takes 1 positional argument but 2 were given",
         "`{0}` is called with a message: write `def {0}(self, msg):`.",
     ),
@@ -196,6 +200,11 @@ RULES = (
         "AttributeError", rf"'(\w+)' object has no attribute '(?:{_NODE_INSIDES})'",
         "{0} was never set up as a node: the first line of its __init__ has to be "
         "`super().__init__('my_node')`.",
+    ),
+    Rule(
+        "AttributeError", r"object has no attribute 'to_label'",
+        "A transition's method, such as on_configure, ends with `return TransitionCallbackReturn.SUCCESS` or "
+        "FAILURE, whichever way it takes.",
     ),
     Rule(
         "AttributeError", r"'(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'",

@@ -9,7 +9,6 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from lifecycle_msgs.srv import ChangeState
 from rclpy.duration import Duration
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
@@ -45,7 +44,7 @@ class ManagedNode(LifecycleNode):
         """Refuse a transition that the state doesn't have, as nodes in C++ do; rclpy's nodes die of it."""
         try:
             return self.change(request, response)
-        except rclpy_implementation.RCLError:
+        except RuntimeError:  # RCLError is one, and has no public name
             response.success = False
             return response
 

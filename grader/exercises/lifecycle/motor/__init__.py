@@ -6,12 +6,17 @@ from typing import NamedTuple
 from grader.checks import Missed, course_calls, hinting, named, serves
 from grader.checks.services import is_refusal, is_success
 from grader.exercise import Exercise, Scenario
-from grader.exercises.lifecycle.motor.motor_manager import CHANGE, SET, MotorManager, StrictManager
+from grader.exercises.lifecycle.motor.motor_manager import (
+    CHANGE,
+    MOST_SPEED,
+    SET,
+    MotorManager,
+    StrictManager,
+)
 from grader.geometry.near import is_near
-from grader.responses import Window, speeds
-from grader.responses.speeds import STANDING
+from grader.responses import Window, require_standing
 from grader.worlds.trusting import trusting
-from sim.evidence import Call, Recording, Seconds
+from sim.evidence import Call, Message, Recording, Seconds
 
 __all__ = ["MotorManager", "motor"]
 
@@ -21,10 +26,18 @@ FEWEST, MOST = 7.0, 12.0  # Hz, in as short a time
 CONFIGURE = 'In on_configure: self.speed = self.get_parameter("speed").value. And drive publishes self.speed.'
 LATE = ("Read the speed in on_configure, and nowhere else: it holds until the node is configured again, "
         "whatever the parameter is set to in the meantime.")
-SUCCESS = "End the transition's method with `return TransitionCallbackReturn.SUCCESS`."
+DECLARE = ("Declare `speed` in __init__, so that it can be set before the node is configured: any value "
+           "above 0 and up to 0.5, while the motor is at rest.")
+SUCCESS = ("End the transition's method with `return TransitionCallbackReturn.SUCCESS`. And leave all "
+           "transitions to the manager: a node that has configured itself can't be configured.")
+RIGHT_SPEED = ("This speed is allowed, 0.5 m/s too. Was the node unconfigured again? After FAILURE it is; "
+               "after ERROR, or an exception, only if on_error returns SUCCESS.")
+STUCK = ("The transition's method hasn't returned: it waits, or is stuck in a loop. on_activate only creates "
+         "the timer; `drive` publishes once each time it is called.")
 SUPER = ("Create the timer in on_activate. And end that with `return super().on_activate(state)`: without "
          "it, a lifecycle publisher publishes nothing.")
 ACTIVE = "Create the timer in on_activate, and destroy it in on_deactivate."
+STRAIGHT = "Set linear.x and nothing else: the other fields of the Twist stay 0. To stop, send Twist()."
 ZERO = ("Silence is not a stop: publish an empty Twist, before super().on_deactivate(state). After that, a "
         "lifecycle publisher publishes nothing.")
 SHUTDOWN = ("A shutdown can come while the node is active, without a deactivate before it: on_shutdown, "
@@ -45,10 +58,11 @@ motor = Exercise("motor", "A motor that waits", scenarios=[
 
 
 class Activation(NamedTuple):
-    """A time in which the node is active, from the response to the request that ends it."""
+    """A time in which the node is active; a transition takes the time until its response."""
 
-    begin: Seconds
-    end: Seconds
+    begin: Seconds  # the response to the request to activate it
+    end: Seconds  # the request that ends it
+    whole: Window  # from the request to activate it to the response to the one that ends it
     speed: float  # m/s, as it was configured
 
 
@@ -69,11 +83,12 @@ def drives_while_active(run: Recording) -> None:
     changes = [moment for it in course_calls(run, SET) if (moment := it.requested or 0.0) > active[0].begin]
     _publishes_speed(run, active[0]._replace(end=changes[0] if changes else active[0].end), CONFIGURE)
     for row in run.messages(OUT):
-        inside = any(Window(one.begin - SOON, one.end).contains(row.stamp) for one in active)
-        if not inside and not is_near(row.message.linear.x, 0.0, 1e-9):
-            expected, saw = f"no speed on {OUT} while /motor isn't active", f"{row.message.linear.x:.3g} m/s"
+        inside = any(one.whole.contains(row.stamp) for one in active)
+        if not inside and not _is_command(row, 0.0):
+            expected = f"no speed on {OUT} while /motor isn't active"
             hint = SHUTDOWN if row.stamp > active[-1].end else ACTIVE
-            raise Missed(expected, f"{saw} at {row.stamp:.3g} s", hint, picture="topics", unsafe=True)
+            hint = hint if row.message.linear.x else STRAIGHT
+            raise Missed(expected, _text_of(row), hint, picture="topics", unsafe=True)
 
 
 @motor.check(2, after=drives_while_active, only="rounds")
@@ -87,12 +102,9 @@ def reads_the_speed_in_time(run: Recording) -> None:
 def stops(run: Recording) -> None:
     """When it is deactivated or shut down, it stops the robot with a zero command."""
     active = _activations(run)
-    for one, then in zip(active, [*(it.begin for it in active[1:]), run.ended.stamp], strict=True):
-        for speed in speeds(Window(one.end + BRAKING, then).rows(run.path)):
-            if speed.linear > STANDING:
-                expected = f"the robot standing still {BRAKING:g} s after the request at {one.end:.3g} s"
-                saw = f"{speed.linear:.2f} m/s at {speed.stamp:.3g} s"
-                raise Missed(expected, saw, ZERO, picture="topics", unsafe=True)
+    for one, then in zip(active, [*(it.whole.begin for it in active[1:]), run.ended.stamp], strict=True):
+        why = f"{BRAKING:g} s after the request at {one.end:.3g} s"
+        require_standing(run, Window(one.end + BRAKING, then), why, ZERO)
 
 
 @motor.check(2, after=drives_while_active, only="rounds")
@@ -112,23 +124,43 @@ def cleans_up(run: Recording) -> None:
 @motor.check(2, after=is_managed, only="refused")
 def refuses_a_wrong_speed(run: Recording) -> None:
     """With a speed that isn't above 0 and at most 0.5 m/s it can't be configured, with another one it can."""
-    for call in course_calls(run, CHANGE, at_least=4)[:4]:
-        speed = _speed(run, call)
-        if _label(call) != "configure" or 0.0 < speed <= 0.5:
-            _is_accepted(call, f", with the speed {speed:.2g} m/s")
-        elif not is_refusal(call):
-            expected = f"success=False for {_text(call)}, with the speed {speed:.2g} m/s"
-            raise Missed(expected, "no answer" if call.response is None else "success=True", REFUSE)
+    for call in course_calls(run, CHANGE, at_least=5):
+        wanted = _settings(run, call)[-1]
+        text = f", with the speed {_value(wanted):.2g} m/s"
+        if _label(call) == "configure" and not 0.0 < _value(wanted) <= MOST_SPEED:
+            if not is_refusal(call) and not _is_refused(wanted):
+                expected = f"success=False for {_text(call)}{text}"
+                raise Missed(expected, "no answer" if call.response is None else "success=True", REFUSE)
+        elif _label(call) in ("configure", "activate"):
+            _speed(run, call)
+            _is_accepted(call, text, RIGHT_SPEED)
 
 
 def _label(call: Call) -> str:
     return str(call.request.transition.label)
 
 
+def _settings(run: Recording, call: Call) -> list[Call]:
+    """The requests to set the parameter before a call."""
+    return [it for it in course_calls(run, SET) if (it.requested or 0.0) < (call.requested or 0.0)]
+
+
+def _value(setting: Call) -> float:
+    return float(setting.request.parameters[0].value.double_value)
+
+
+def _is_refused(setting: Call) -> bool:
+    return setting.response is not None and not setting.response.results[0].successful
+
+
 def _speed(run: Recording, call: Call) -> float:
-    """Return the speed to which the parameter was set before a call."""
-    earlier = [it for it in course_calls(run, SET) if (it.requested or 0.0) < (call.requested or 0.0)]
-    return float(earlier[-1].request.parameters[0].value.double_value)
+    """Return the parameter's value at a call. Raises Missed if the node has refused every one so far."""
+    asked = _settings(run, call)
+    done = [_value(it) for it in asked if not _is_refused(it)]
+    if not done:
+        expected = f"the parameter speed of /motor set to {_value(asked[-1]):.3g} m/s"
+        raise Missed(expected, f"refused: {asked[-1].response.results[0].reason}", DECLARE)
+    return done[-1]
 
 
 def _text(call: Call) -> str:
@@ -137,8 +169,9 @@ def _text(call: Call) -> str:
 
 def _is_accepted(call: Call, why: str = "", hint: str = SUCCESS) -> None:
     if not is_success(call):
-        saw = "no answer" if call.response is None else "success=False"
-        raise Missed(f"success=True for {_text(call)}{why}", saw, hint)
+        answered = call.response is not None
+        saw = "success=False" if answered else "no answer"
+        raise Missed(f"success=True for {_text(call)}{why}", saw, hint if answered else STUCK)
 
 
 def _activations(run: Recording) -> list[Activation]:
@@ -149,15 +182,28 @@ def _activations(run: Recording) -> list[Activation]:
         if _label(call) == "configure":
             configured = _speed(run, call)
         if _label(call) == "activate" and is_success(call):
-            begin = call.answered if call.answered is not None else call.requested
-            found.append(Activation(begin or 0.0, following.requested or 0.0, configured))
+            asked, end = call.requested or 0.0, following.requested or 0.0
+            whole = Window(asked, end if following.answered is None else following.answered)
+            found.append(Activation(call.answered or asked, end, whole, configured))
     return found
 
 
 def _publishes_speed(run: Recording, one: Activation, guess: str) -> None:
     sent = Window(one.begin + SOON, one.end).before(one.end).rows(run.messages(OUT))
-    wrong = [row for row in sent if not is_near(row.message.linear.x, one.speed, 1e-3)]
+    wrong = [row for row in sent if not _is_command(row, one.speed)]
     if wrong or not sent:
-        saw = f"{wrong[0].message.linear.x:.3g} m/s at {wrong[0].stamp:.3g} s" if wrong else "no command"
+        saw = _text_of(wrong[0]) if wrong else "no command"
+        straight = wrong and is_near(wrong[0].message.linear.x, one.speed, 1e-3)
+        guess = STRAIGHT if straight else guess
         expected = f"{one.speed:.3g} m/s on {OUT}, active from {one.begin:.3g} to {one.end:.3g} s"
         raise Missed(expected, saw, guess if wrong else SUPER)
+
+
+def _is_command(row: Message, speed: float) -> bool:
+    command = row.message
+    return is_near((command.linear.x, command.angular.z), (speed, 0.0), 1e-3)
+
+
+def _text_of(row: Message) -> str:
+    turn = f" and {row.message.angular.z:.3g} rad/s" if row.message.angular.z else ""
+    return f"{row.message.linear.x:.3g} m/s{turn} at {row.stamp:.3g} s"

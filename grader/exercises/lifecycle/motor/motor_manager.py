@@ -12,7 +12,7 @@ from rclpy.task import Future
 from grader.companions.service_clients import ServiceCaller, call_at, set_parameter
 
 CHANGE, SET = "/motor/change_state", "/motor/set_parameters"
-MOST = 0.5  # m/s; a motor refuses more
+MOST_SPEED = 0.5  # m/s; a motor refuses more
 
 
 class MotorManager(ServiceCaller):
@@ -51,11 +51,27 @@ class MotorManager(ServiceCaller):
 
 
 class StrictManager(MotorManager):
-    """Tries to configure it with two speeds that no motor takes, then with another one."""
+    """Tries to configure it with three speeds that no motor takes, then with the highest one that it does.
+
+    If one of the three was refused as a parameter already, it is configured with another one, and cleaned up.
+    """
+
+    right = False
 
     def plan(self) -> list[str | float]:
         """Return the one plan of this manager."""
-        wrong = [random.randint(60, 90) / 100, -random.randint(10, 40) / 100]
+        wrong = [random.randint(60, 90) / 100, -random.randint(10, 40) / 100, 0.0]
         random.shuffle(wrong)
-        right = random.randint(100, 300) / 1000
-        return [wrong[0], "configure", wrong[1], "configure", right, "configure", "activate", "deactivate"]
+        tries = [step for speed in (*wrong, MOST_SPEED) for step in (speed, "configure")]
+        return [*tries, "activate", "deactivate"]
+
+    def do(self, step: str | float) -> None:
+        """Remember which speed it is."""
+        self.right = step == MOST_SPEED if isinstance(step, float) else self.right
+        super().do(step)
+
+    def on_response(self, step: str, future: Future) -> None:
+        """Return to unconfigured before the next speed."""
+        super().on_response(step, future)
+        if step == "configure" and future.result().success and not self.right:
+            self.do("cleanup")
