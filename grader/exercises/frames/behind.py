@@ -31,8 +31,8 @@ WHY_OFF = {
     "Target and source are swapped: lookup_transform(target, source, time) gives the pose of the source, "
     "seen from the target. The target is the robot's own frame, base_link, and the source the leader's.":
         lambda run, gaps: _looks_from_the_leader(run),
-    "The robot hardly moves. Does the lookup fail each time? Log the exception: it says why. And is "
-    "the robot's own frame, base_link, the target?":
+    "The robot hardly moves. Does the lookup fail each time, or wait for a time before the first transform? "
+    "Log the exception: it says why. And is the robot's own frame, base_link, the target?":
         lambda run, gaps: math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1,
     "It is too close: the point 1 m behind the leader is at x = -1 in leader/base_link.":
         lambda run, gaps: gaps and statistics.mean(gaps.values()) < 0.75,

@@ -150,7 +150,7 @@ class Buffer(BufferCore, BufferInterface):
         )
 
     def _future(self, can_transform: Callable[[], tuple[bool, str]], lookup: Callable[[], Any]) -> Future:
-        future = Future()
+        future = _ArrivalFuture()
 
         def on_new_data() -> None:
             if not future.done() and can_transform()[0]:
@@ -171,6 +171,10 @@ class Buffer(BufferCore, BufferInterface):
     def _remove_callback(self, callback: Callable[[], None]) -> None:
         with self._callbacks_lock:
             self._callbacks.remove(callback)
+
+
+class _ArrivalFuture(Future):
+    """A future that messages complete: to wait for it long is a wait for a message, and no mistake."""
 
 
 def _poll(
