@@ -26,6 +26,9 @@ PROGRAMS: dict[str, dict[str, tuple[str, ...]]] = {
     "robot_state_publisher": {
         "robot_state_publisher": ("-m", "robot_state_publisher.robot_state_publisher"),
     },
+    "teleop_twist_keyboard": {
+        "teleop_twist_keyboard": ("-m", "teleop_twist_keyboard.teleop_twist_keyboard"),
+    },
     "tf2_ros": {
         "static_transform_publisher": ("-m", "tf2_ros.static_transform_publisher"),
         "tf2_echo": ("-m", "tf2_ros.tf2_echo"),
