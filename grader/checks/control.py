@@ -33,6 +33,12 @@ PLACE_TURNED = (
     "The position has the wrong sign, which drives the cart away: to come back from the right, it first has "
     "to push to the right, so that the pole leans to the left. Add gain * x for the position, with a plus."
 )
+NOT_FINITE = "An effort was {push}, which the cart refuses: check how it is calculated. Did it divide by 0?"
+ENDED = (
+    "After {last:.3g} s no effort came any more, and the cart kept to that one. Publish one for each joint "
+    "state, from start to end."
+)
+LATE = 0.3  # s without an effort until the fall
 NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state arrives."
 
 
@@ -159,6 +165,11 @@ def _why_it_fell(run: Recording, fell: Seconds) -> str:
     sent = [(effort.stamp, effort.message.data) for effort in run.messages(EFFORT) if effort.stamp < fell]
     if not sent:
         return NO_EFFORT
+    refused = next((push for _, push in sent if not math.isfinite(push)), None)
+    if refused is not None:
+        return NOT_FINITE.format(push=refused)
+    if fell - sent[-1][0] > LATE:
+        return ENDED.format(last=sent[-1][0])
     first = next((push for _, push in sent if push), 0.0)
     if first * lean(run)[0][1] > 0:
         return WRONG_WAY

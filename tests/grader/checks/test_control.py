@@ -99,6 +99,14 @@ def seldom(seconds):
     return f"The efforts were too rare: up to {seconds} s passed between two of them, and the pole falls in the meantime. Publish one for each joint state, and let nothing block the loop."
 
 
+def refused(push):
+    return f"An effort was {push}, which the cart refuses: check how it is calculated. Did it divide by 0?"
+
+
+def ends(last):
+    return f"After {last} s no effort came any more, and the cart kept to that one. Publish one for each joint state, from start to end."
+
+
 END = World.load("cart_pole").machine.track_length / 2
 
 
@@ -114,6 +122,9 @@ END = World.load("cart_pole").machine.track_length / 2
         ([0.1, 0.3, 0.6], None, [(0.1, -1.0)], TOO_WEAK),
         ([0.1, 0.3, 0.6], None, [(0.2, -1.0), (0.3, -1.0)], NO_EFFORT),
         ([0.1, 0.3, 0.6], None, quick(0.0), TOO_WEAK),
+        ([0.1, 0.3, 0.6], None, quick(math.nan), refused("nan")),
+        ([0.1, 0.3, 0.6], None, [*quick(1.0), (0.15, -math.inf)], refused("-inf")),
+        ([0.1] * 4 + [0.6], None, [(0.0, -1.0), (0.04, -1.0)], ends("0.04")),
         ([0.1, 0.3, 0.6], None, [(0.0, 0.0), *quick(1.0)], WRONG_WAY),
         ([-0.1, 0.3, 0.6], None, quick(1.0), SWINGS),
         ([0.0, 0.3, 0.6], None, quick(1.0), TOO_WEAK),

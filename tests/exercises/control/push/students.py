@@ -1,5 +1,6 @@
 """Controllers for any pole, and any push: right ones, and wrong ones named by their defect."""
 
+import threading
 import time
 
 import numpy as np
@@ -7,6 +8,10 @@ import rclpy
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
+
+from tests.students.teams import Team
+
+PARTS = "Outer", "Inner"
 
 
 class Balancer(Node):
@@ -118,6 +123,132 @@ class RatesByItself(Balancer):
         super().on_joints(msg)
 
 
+class Outer(Node):
+    """The slow half of a cascade in two nodes: 25 times a second it says on /lean how far the pole should lean."""
+
+    def __init__(self):
+        super().__init__("outer")
+        self.publisher = self.create_publisher(Float64, "/lean", 1)
+        self.create_subscription(JointState, "/joint_states", self.on_joints, 1)
+        self.create_timer(0.04, self.tick)
+        self.state = None
+
+    def on_joints(self, msg):
+        self.state = msg.position[0], msg.velocity[0]
+
+    def tick(self):
+        if self.state is not None:
+            self.publisher.publish(Float64(data=max(-0.3, min(0.3, 0.18 * self.state[0] + 0.2 * self.state[1]))))
+
+
+class Inner(Balancer):
+    """The fast half makes it lean that far; until it is told, upright."""
+
+    def __init__(self):
+        super().__init__()
+        self.lean = 0.0
+        self.create_subscription(Float64, "/lean", lambda msg: setattr(self, "lean", msg.data), 1)
+
+    def on_joints(self, msg):
+        self.push(60.0 * (self.lean - msg.position[1]) - 9.0 * msg.velocity[1])
+
+
+TwoNodes = Team(Outer, Inner)
+
+
+class WithAnIntegral(Balancer):
+    """PID on the angle whose wanted value comes from the place; the sum is limited, and small."""
+
+    total = 0.0
+
+    def on_joints(self, msg):
+        (x, angle), (speed, rate) = msg.position, msg.velocity
+        error = max(-0.3, min(0.3, 0.17 * x + 0.19 * speed)) - angle
+        self.total = max(-0.02, min(0.02, self.total + 0.01 * error))
+        self.push(60.0 * error + 5.0 * self.total - 9.0 * rate)
+
+
+class ByAnObserver(Balancer):
+    """Believes no velocity: an observer tracks place and angle, and estimates how fast they change."""
+
+    track = None
+
+    def on_joints(self, msg):
+        if self.track is None:
+            self.track = np.array([[value, 0.0] for value in msg.position])
+        self.track[:, 0] += 0.01 * self.track[:, 1]
+        off = np.array(msg.position) - self.track[:, 0]
+        self.track += np.outer(off, [0.7, 30.0])
+        (x, speed), (angle, rate) = self.track
+        self.push(float(-60.0 * angle - 9.0 * rate + 10.0 * x + 11.0 * speed))
+
+
+class Mass(Balancer):
+    """Thinks in accelerations: which one does the cart need, and which force gives it that?"""
+
+    def on_joints(self, msg):
+        (x, angle), (speed, rate) = msg.position, msg.velocity
+        wanted = 18.0 * x + 19.0 * speed - 105.0 * angle - 15.5 * rate  # m/s^2, of a cart
+        self.push(0.57 * wanted)  # kg in the middle of the range
+
+
+def loop_that_spins():
+    """A program's own loop, as in a firmware: take the newest state, compute, send."""
+    rclpy.init()
+    node, box = rclpy.create_node("balancer"), []
+    publisher = node.create_publisher(Float64, "cart_effort", 10)
+    node.create_subscription(JointState, "joint_states", box.append, 10)
+    while rclpy.ok():
+        rclpy.spin_once(node)
+        if box:
+            state = dict(zip(box[-1].name, zip(box[-1].position, box[-1].velocity, strict=True), strict=True))
+            box.clear()
+            (x, v), (phi, omega) = state["slider_joint"], state["pole_joint"]
+            effort = np.dot([10.0, 11.0, -60.0, -9.0], [x, v, phi, omega])
+            publisher.publish(Float64(data=float(np.clip(effort, -10.0, 10.0))))
+
+
+class ControlThread(Balancer):
+    """A thread of its own computes, a hundred times a second; the callback only stores."""
+
+    joints = None
+
+    def __init__(self):
+        super().__init__()
+        self.rate = self.create_rate(100)
+        threading.Thread(target=self.work, daemon=True).start()
+
+    def on_joints(self, msg):
+        self.joints = msg
+
+    def work(self):
+        while rclpy.ok():
+            self.rate.sleep()
+            if self.joints is not None:
+                super().on_joints(self.joints)
+
+
+class GainsAreParameters(Balancer):
+    """A design of its own: two sets of gains, and the one for hard times while it is far from the middle."""
+
+    def __init__(self):
+        super().__init__()
+        self.declare_parameter("calm", [60.0, 9.0, 10.0, 11.0])
+        self.declare_parameter("hard", [70.0, 10.0, 9.0, 11.0])
+
+    def on_joints(self, msg):
+        far = abs(msg.position[0]) > 0.4 or abs(msg.position[1]) > 0.25
+        self.gains = self.get_parameter("hard" if far else "calm").value
+        super().on_joints(msg)
+
+
+class BangBang(Balancer):
+    """Full force to either side, a hundred times a second: hard on a motor, and right by all that is asked."""
+
+    def push(self, effort):
+        super().push(10.0 if effort > 0 else -10.0)
+
+
 class AngleOnly(Balancer):
     gains = 60.0, 9.0, 0.0, 0.0
 
@@ -177,3 +308,77 @@ class ByNameAndNewest(Balancer):
         slider, pole = msg.name.index("slider_joint"), msg.name.index("pole_joint")
         effort = -60.0 * msg.position[pole] - 9.0 * msg.velocity[pole]
         self.push(effort + 10.0 * msg.position[slider] + 11.0 * msg.velocity[slider])
+
+
+class SwapsTheJoints(Balancer):
+    def on_joints(self, msg):
+        msg.position, msg.velocity = msg.position[::-1], msg.velocity[::-1]
+        super().on_joints(msg)
+
+
+class LimitsOneSideOnly(Balancer):
+    """Forgets the other sign."""
+
+    def push(self, effort):
+        self.publisher.publish(Float64(data=min(10.0, effort)))
+
+
+class AveragesForLong(Balancer):
+    """A mean of 20 states is smooth, and 0.1 s late."""
+
+    def __init__(self):
+        super().__init__()
+        self.states = []
+
+    def on_joints(self, msg):
+        self.states = [*self.states, [*msg.position, *msg.velocity]][-20:]
+        x, angle, speed, rate = np.mean(self.states, axis=0)
+        msg.position, msg.velocity = [x, angle], [speed, rate]
+        super().on_joints(msg)
+
+
+class WindsUp(Balancer):
+    """An integral of the place, without a limit."""
+
+    total = 0.0
+
+    def on_joints(self, msg):
+        self.total += 0.01 * msg.position[0]
+        (x, angle), (speed, rate) = msg.position, msg.velocity
+        self.push(-60.0 * angle - 9.0 * rate + 10.0 * x + 11.0 * speed + 15.0 * self.total)
+
+
+class GivesUpFarOut(Balancer):
+    """Where it is hard to hold, it lets the motor rest."""
+
+    def on_joints(self, msg):
+        if abs(msg.position[1]) < 0.12:
+            super().on_joints(msg)
+        else:
+            self.push(0.0)
+
+
+class QuietInTheMiddle(Balancer):
+    """Near enough is good enough: no force while the pole is almost upright. It sways without end."""
+
+    def push(self, effort):
+        super().push(effort if abs(effort) > 2.5 else 0.0)
+
+
+class NotANumber(Balancer):
+    """Divides by the cart's mass, which it takes to be 0 as long as it doesn't know it."""
+
+    def push(self, effort):
+        with np.errstate(all="ignore"):
+            self.publisher.publish(Float64(data=float(np.clip(np.float64(effort) / 0.0 * 0.0, -10.0, 10.0))))
+
+
+class EndsAtTheFirstPush(Balancer):
+    """Takes the jolt for an accident, and switches off."""
+
+    off = False
+
+    def on_joints(self, msg):
+        self.off = self.off or abs(msg.velocity[0]) > 0.5
+        if not self.off:
+            super().on_joints(msg)
