@@ -20,10 +20,11 @@ TOLERANCE = 0.015  # m
 FASTEST, SLACK = 2.0, 0.05  # rad/s of the quicker joint; rad
 JUMPS = 0.5  # the credit for a jump to the first point
 HALF_TURN = 2.5  # rad, and more: no two points of a figure are so far apart
+REPLACED, TOO_LONG = "another goal was sent before it had ended", "the run ended first"
 JUMP = "How far does each joint have to turn from where the arm is, and how fast can it?"
 
 draw = Exercise("draw", "An arm that draws, your way", world=desk_of, seconds=15, companions=designer,
-                seeds=(1, 2))
+                seeds=(1, 2), may_end=True)
 
 
 @draw.check(2)
@@ -38,14 +39,17 @@ def sends_a_goal(run: Recording) -> list[Goal]:
         lambda run, reason: "time_from_start" in reason,
     "Angles beyond the limits come from degrees, or from the wrong quadrant: use atan2(y, x), in radians.":
         lambda run, reason: "limits" in reason,
+    "A new goal replaces the one before it: wait for the result of each goal before you send the next.":
+        lambda run, reason: reason == REPLACED,
+    "It takes too long: the times of all goals, and what passes between them, have to fit into the 15 s.":
+        lambda run, reason: reason == TOO_LONG,
     "Read the reason: it names the point or the joint.": otherwise,
 })
 def can_be_followed(run: Recording, goals: list[Goal]) -> None:
     """The arm accepts it, and executes it to the end."""
-    for goal in goals:
+    for goal, following in zip(goals, [*goals[1:], None], strict=True):
         if goal.status != "succeeded":
-            errors = [line.text for line in run.logs if line.from_course and line.level == "ERROR"]
-            reason = goal.result.error_string if goal.result else next(iter(errors), "no reason given")
+            reason = _reason(run, goal, following)
             raise Missed("a goal that succeeds", f"{goal.status or 'no answer'}: {reason}", about=(reason,))
 
 
@@ -61,7 +65,7 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
     "It doesn't even reach the first point. Check inverse(x, y) on paper, for the arm stretched "
     "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder subtract what the bent elbow adds?":
         lambda run: not _comes_near(run, _figure(run)[:1]),
-    "The figure has {figure} points, and the trajectory {sent}: make at least one trajectory point for "
+    "The figure has {figure} points, and you sent {sent}: make at least one trajectory point for "
     "each.": lambda run: (
         len(_points(run)) < len(_figure(run)) and {"figure": len(_figure(run)), "sent": len(_points(run))}
     ),
@@ -94,6 +98,20 @@ def keeps_off_the_table(run: Recording) -> None:
     keeps_off(run, hint)
 
 
+def _reason(run: Recording, goal: Goal, following: Goal | None) -> str:
+    """Return why a goal hasn't succeeded, as far as that is known."""
+    if following and goal.at("rejected") is None:
+        ended = goal.ended if goal.ended is not None else math.inf
+        if following.requested is not None and following.requested <= ended:
+            return REPLACED
+    if goal.result is not None:
+        return str(goal.result.error_string)
+    if goal.status in ("accepted", "executing"):
+        return TOO_LONG
+    errors = [line.text for line in run.logs if line.from_course and line.level == "ERROR"]
+    return next(iter(errors), "no reason given")
+
+
 def _touches(run: Recording) -> bool:
     """Whether a part of the arm touches the table's edge."""
     try:
@@ -108,8 +126,8 @@ def _figure(run: Recording) -> list[Point]:
 
 
 def _points(run: Recording) -> list:
-    """The points of the first goal."""
-    return run.goals_of(FOLLOW_TRAJECTORY[0])[0].request.trajectory.points
+    """The points of all goals, one after the other."""
+    return [point for goal in run.goals_of(FOLLOW_TRAJECTORY[0]) for point in goal.request.trajectory.points]
 
 
 def _jump(run: Recording) -> str:

@@ -1,17 +1,21 @@
 """Arms that draw: right ones, and wrong ones named by their defect."""
 
+import cmath
 import itertools
 import math
 from xml.etree import ElementTree
 
+import numpy as np
+import rclpy
 from control_msgs.action import FollowJointTrajectory
-from geometry_msgs.msg import Polygon
+from geometry_msgs.msg import Point32, Polygon
 from rclpy.action import ActionClient
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
-from trajectory_msgs.msg import JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 ACTION = "/arm_controller/follow_joint_trajectory"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -151,6 +155,142 @@ class GoesThereFirst(Artist):
         return self.client.send_goal_async(goal)
 
 
+class OneGoalPerPoint(Artist):
+    """Knows nothing of trajectories: each goal is one place, and the result of one sends the next."""
+
+    def draw(self, figure):
+        if self.upper is None:
+            super().draw(figure)
+            return
+        self.left = list(figure.points)
+        self.next(2.5)
+
+    def next(self, seconds):
+        goal = FollowJointTrajectory.Goal()
+        goal.trajectory.joint_names = list(self.names)
+        place = self.left.pop(0)
+        point = JointTrajectoryPoint(positions=list(self.inverse(place.x, place.y)))
+        point.time_from_start = Duration(seconds=seconds).to_msg()
+        goal.trajectory.points.append(point)
+        self.client.wait_for_server()
+        self.client.send_goal_async(goal).add_done_callback(self.on_response)
+
+    def on_response(self, future):
+        future.result().get_result_async().add_done_callback(self.on_result)
+
+    def on_result(self, future):
+        if self.left:
+            self.next(0.1)
+
+
+class InACoroutine(Artist):
+    """Reads from top to bottom: description, figure, there, draw; the elbow's place by complex numbers."""
+
+    def __init__(self):
+        Node.__init__(self, "artist")
+        group = ReentrantCallbackGroup()
+        self.figure = self.upper = None
+        self.client = ActionClient(self, FollowJointTrajectory, ACTION, callback_group=group)
+        self.create_subscription(String, "/robot_description", self.read, LATCHED)
+        self.create_subscription(Polygon, "/figure", lambda msg: setattr(self, "figure", msg.points), LATCHED)
+        self.timer = self.create_timer(0.1, self.work, callback_group=group)
+
+    async def work(self):
+        if self.figure is None or self.upper is None or not self.client.server_is_ready():
+            return
+        self.timer.cancel()
+        for places, begin, step in (self.figure[:1], 2.5, 0.0), (self.figure[1:], 0.2, 0.15):
+            points = [
+                JointTrajectoryPoint(positions=self.inverse(place.x, place.y),
+                                     time_from_start=Duration(seconds=begin + step * index).to_msg())
+                for index, place in enumerate(places)
+            ]  # fmt: skip
+            goal = FollowJointTrajectory.Goal(trajectory=JointTrajectory(joint_names=self.names, points=points))
+            handle = await self.client.send_goal_async(goal)
+            await handle.get_result_async()
+
+    def inverse(self, x, y):
+        goal = complex(x, y)
+        along = (abs(goal) ** 2 + self.upper**2 - self.fore**2) / (2 * abs(goal))
+        beside = math.copysign(math.sqrt(self.upper**2 - along**2), y)
+        elbow = goal / abs(goal) * complex(along, beside)
+        return [cmath.phase(elbow), cmath.phase((goal - elbow) / elbow)]
+
+
+class SearchesATable(Artist):
+    """A table of places for all angles, and a finer one around the best: no formula but the arm's own."""
+
+    def inverse(self, x, y):
+        side = -1.0 if y > 0 else 1.0
+        middle, width = (math.atan2(y, x) - side, 1.5 * side), 1.6
+        for _ in range(9):
+            shoulders, elbows = (np.linspace(each - width, each + width, 25) for each in middle)
+            elbows = np.clip(elbows, 0.05, 3.0) if side > 0 else np.clip(elbows, -3.0, -0.05)
+            first, second = np.meshgrid(shoulders, elbows, indexing="ij")
+            off = np.hypot(
+                self.upper * np.cos(first) + self.fore * np.cos(first + second) - x,
+                self.upper * np.sin(first) + self.fore * np.sin(first + second) - y,
+            )
+            row, column = np.unravel_index(off.argmin(), off.shape)
+            middle, width = (shoulders[row], elbows[column]), width / 5
+        return float(middle[0]), float(middle[1])
+
+
+class SmoothAndTimed(Artist):
+    """Five times as many points as the figure has, with velocities; each takes as long as its joints need."""
+
+    def draw(self, figure):
+        if self.upper is None:
+            super().draw(figure)
+            return
+        dense = []
+        for a, b in itertools.pairwise(figure.points):
+            dense += [(a.x + (b.x - a.x) * k / 5, a.y + (b.y - a.y) * k / 5) for k in range(5)]
+        dense.append((figure.points[-1].x, figure.points[-1].y))
+        angles = np.unwrap([self.inverse(x, y) for x, y in dense], axis=0)
+        steps = np.abs(np.diff(angles, axis=0)).max(axis=1) / 0.9 + 0.02
+        times = np.concatenate([[3.0], 3.0 + np.cumsum(steps)])
+        rates = np.gradient(angles, times, axis=0)
+        rates[-1] = 0.0
+        goal = FollowJointTrajectory.Goal()
+        goal.trajectory.joint_names = list(self.names)
+        goal.trajectory.points = [
+            JointTrajectoryPoint(positions=row.tolist(), velocities=rate.tolist(),
+                                 time_from_start=Duration(seconds=float(time)).to_msg())
+            for row, rate, time in zip(angles, rates, times, strict=True)
+        ]  # fmt: skip
+        self.client.wait_for_server()
+        self.client.send_goal_async(goal)
+
+
+def main():
+    """No class: waits for both messages, then for the results."""
+    rclpy.init()
+    node, box = rclpy.create_node("artist"), {}
+    node.create_subscription(String, "robot_description", lambda msg: box.update(robot=msg.data), LATCHED)
+    node.create_subscription(Polygon, "figure", lambda msg: box.update(figure=msg.points), LATCHED)
+    while len(box) < 2:
+        rclpy.spin_once(node)
+    joints = {joint.get("name"): joint for joint in ElementTree.fromstring(box["robot"]).iter("joint")}
+    l1, l2 = (
+        math.hypot(*map(float, joints[name].find("origin").get("xyz").split()[:2]))
+        for name in ("elbow_joint", "tip_joint")
+    )
+    trajectory = JointTrajectory(joint_names=["elbow_joint", "shoulder_joint"])  # the order is free
+    for number, p in enumerate(box["figure"]):
+        q2 = -math.copysign(math.acos((p.x**2 + p.y**2 - l1**2 - l2**2) / 2 / l1 / l2), p.y)
+        q1 = math.atan2(p.y, p.x) - math.atan2(l2 * math.sin(q2), l1 + l2 * math.cos(q2))
+        stamp = Duration(seconds=4.0 + 0.2 * number).to_msg()
+        trajectory.points.append(JointTrajectoryPoint(positions=[q2, q1], time_from_start=stamp))
+    client = ActionClient(node, FollowJointTrajectory, ACTION)
+    client.wait_for_server()
+    sent = client.send_goal_async(FollowJointTrajectory.Goal(trajectory=trajectory))
+    rclpy.spin_until_future_complete(node, sent)
+    rclpy.spin_until_future_complete(node, sent.result().get_result_async())
+    node.destroy_node()
+    rclpy.shutdown()
+
+
 class ElbowMirrored(Artist):
     def side(self, y):
         return 1.0 if y > 0 else -1.0
@@ -256,3 +396,69 @@ class StaysWhereItIs(Artist):
 
 class OtherNames(Artist):
     names = ("shoulder", "elbow")
+
+
+class OneGoalPerPointAtOnce(OneGoalPerPoint):
+    """Doesn't wait for results: each goal takes the place of the one before."""
+
+    def next(self, seconds):
+        super().next(seconds)
+        if self.left:
+            self.next(0.2)
+
+    def on_response(self, future):
+        pass
+
+
+class HalfByGoals(OneGoalPerPoint):
+    def draw(self, figure):
+        figure.points = figure.points[: len(figure.points) // 2]
+        super().draw(figure)
+
+
+class MirroredByGoals(OneGoalPerPoint):
+    def inverse(self, x, y):
+        return super().inverse(x, -y)
+
+
+class HurriesByGoals(OneGoalPerPoint):
+    """A goal for each point, and no time for any: 0.02 s, while the arm runs after them."""
+
+    def on_result(self, future):
+        if self.left:
+            self.next(0.02)
+
+
+class DrawsWithTheElbow(Artist):
+    """Puts the elbow on the figure."""
+
+    def inverse(self, x, y):
+        return math.atan2(y, x), 0.0
+
+
+class ShoulderUnlimited(Artist):
+    """Adds a whole turn: the same direction, and beyond the joint's limit."""
+
+    def inverse(self, x, y):
+        shoulder, elbow = super().inverse(x, y)
+        return shoulder + math.tau, elbow
+
+
+class SendsNoNames(Artist):
+    names = ()
+
+
+class Dawdles(Artist):
+    """Takes 20 s."""
+
+    def time(self, index):
+        return 3.0 + 0.5 * index
+
+
+class LiftsToTheMiddle(Artist):
+    """Goes to the figure's middle between any two points."""
+
+    def places(self, figure):
+        x = sum(place.x for place in figure.points) / len(figure.points)
+        y = sum(place.y for place in figure.points) / len(figure.points)
+        return [each for place in figure.points for each in (place, Point32(x=x, y=y))]
