@@ -80,15 +80,15 @@ def test_in_a_terminal_it_reads_keys_without_enter_until_ctrl_c():
                               stdout=subprocess.DEVNULL)  # fmt: skip
     try:
         os.set_blocking(listener.stdout.fileno(), False)
-        end, heard = time.monotonic() + PATIENCE, ""
-        while not heard and time.monotonic() < end:  # until the two have discovered each other
+        end, received = time.monotonic() + PATIENCE, ""
+        while not received and time.monotonic() < end:  # until the two have discovered each other
             os.write(keyboard, b"i")
             time.sleep(0.2)
-            heard = listener.stdout.readline()
+            received = listener.stdout.readline()
         os.set_blocking(listener.stdout.fileno(), True)
         os.write(keyboard, b"qk\x03")
         assert teleop.wait(PATIENCE) == 0
-        lines = [heard.strip()]
+        lines = [received.strip()]
         while lines[-1] != "0 0":
             lines.append(listener.stdout.readline().strip())
         assert [line for line in lines if line != "0.5 0"] == ["0.55 0", "0 0"]

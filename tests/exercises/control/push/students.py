@@ -142,7 +142,7 @@ class Outer(Node):
 
 
 class Inner(Balancer):
-    """The fast half makes it lean that far; until it is told, upright."""
+    """The fast half makes it lean that far; until the first message, upright."""
 
     def __init__(self):
         super().__init__()

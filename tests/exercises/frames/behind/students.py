@@ -544,7 +544,7 @@ class AsksForNow(Follower):
 
 
 class StopsForGood(Follower):
-    """Whoever fails once has failed: the transforms come a second later."""
+    """One failure is enough: the transforms come a second later."""
 
     failed = False
 
