@@ -3,6 +3,7 @@
 import itertools
 import math
 import time
+from collections import deque
 
 import numpy as np
 import rclpy
@@ -298,6 +299,143 @@ class LooksItUp(Navigator):
         return self.where(scan.header.frame_id, scan.header.stamp)
 
 
+class InACoroutine(Navigator):
+    """Execute awaits the next tick of a timer, and waits there as well while it is lost: one thread is enough."""
+
+    def __init__(self):
+        super().__init__()
+        self.next = Future()
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        done, self.next = self.next, Future()
+        done.set_result(None)
+
+    async def execute(self, goal_handle):
+        began, goal, path = self.get_clock().now(), self.goal_of(goal_handle), []
+        while not goal_handle.is_cancel_requested:
+            await self.next
+            if self.info is None or self.is_lost:
+                self.drive(0.0, 0.0)
+                continue
+            if math.dist(self.pose[:2], goal) < 0.12:
+                return self.arrived(goal_handle)
+            path = self.plan(goal) if not path or self.is_blocked(path) else path
+            self.drive(*(steer(self.pose, carrot(path, self.pose)) if path else (0.0, 0.0)))
+            if path:
+                self.tell(goal_handle, path, began)
+        return self.canceled(goal_handle)
+
+
+class AsAGenerator(TimerNavigator):
+    """What is to be done is a generator; each tick of the timer runs it on to its next `yield`."""
+
+    job = None
+
+    def work(self):
+        if self.goal_handle is not None:
+            self.job = self.job or self.steps(self.goal_handle.request.pose.pose.position)
+            if next(self.job, "over") == "over":
+                self.job = None
+
+    def steps(self, position):
+        while self.info is None or self.is_lost:
+            if self.goal_handle.is_cancel_requested:
+                return self.finish(self.goal_handle.canceled)
+            yield
+        goal = position.x, position.y
+        while math.dist(goal, self.pose[:2]) > 0.15:
+            if self.goal_handle.is_cancel_requested:
+                return self.finish(self.goal_handle.canceled)
+            if self.is_lost:
+                self.drive(0.0, 0.0)
+            else:
+                self.follow(goal)
+            yield
+        return self.finish(self.goal_handle.succeed)
+
+    def follow(self, goal):
+        if not self.path or self.is_blocked(self.path):
+            self.path = self.plan(goal)
+        if self.path:
+            self.drive(*steer(self.pose, carrot(self.path, self.pose, 0.25), 0.3))
+            self.goal_handle.publish_feedback(self.feedback(self.path, self.began))
+
+
+class OneAfterTheOther(Navigator):
+    """Accepts every goal, and executes them in the order in which they came."""
+
+    def __init__(self):
+        super().__init__()
+        self.queue, self.busy = deque(), False
+        self.server.register_handle_accepted_callback(self.on_accepted)
+
+    def on_accepted(self, goal_handle):
+        self.queue.append(goal_handle)
+        self.begin_next()
+
+    def begin_next(self):
+        if self.queue and not self.busy:
+            self.busy = True
+            self.queue.popleft().execute()
+
+    def execute(self, goal_handle):
+        try:
+            return super().execute(goal_handle)
+        finally:
+            self.busy = False
+            self.begin_next()
+
+
+class Pilot(Localized):
+    """A controller of its own: it follows the newest route, and stands without one."""
+
+    def __init__(self):
+        super().__init__("pilot")
+        self.route = []
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_subscription(Path, "/route", self.on_route, 10)
+        self.create_timer(0.1, self.tick)
+
+    def on_route(self, msg):
+        self.route = [(each.pose.position.x, each.pose.position.y) for each in msg.poses]
+
+    def tick(self):
+        command = Twist()
+        if self.route and not self.is_lost:
+            speed, turn = steer(self.pose, carrot(self.route, self.pose))
+            command.linear.x, command.angular.z = float(speed), float(turn)
+        self.publisher.publish(command)
+
+
+class Dispatcher(Navigator):
+    """The other half: goals, plans and feedback. It sends the pilot a route, and an empty one to stop."""
+
+    def __init__(self):
+        super().__init__()
+        self.destroy_publisher(self.command_publisher)
+        self.routes, self.stands = self.create_publisher(Path, "/route", 10), True
+
+    def plan(self, goal):
+        points = super().plan(goal)
+        self.routes.publish(path_message(points))
+        self.stands = False
+        return points
+
+    def drive(self, speed, turn):
+        if not (speed or turn or self.stands):
+            self.routes.publish(path_message([]))
+            self.stands = True
+
+
+def two_nodes_main():
+    rclpy.init()
+    executor = MultiThreadedExecutor()
+    for node in (Dispatcher(), Pilot()):
+        executor.add_node(node)
+    executor.spin()
+
+
 def main_with_try():
     """A tutorial's main(), with try, finally and a rate of its own."""
     rclpy.init()
@@ -318,6 +456,9 @@ timer_main = main_of(TimerNavigator, SingleThreadedExecutor)
 replanning_main = main_of(ReplansAlways)  # a design of its own: plans anew in each turn of its loop
 turning_main = main_of(TurnsToTheHeading)
 looking_up_main = main_of(LooksItUp)
+coroutine_main = main_of(InACoroutine, SingleThreadedExecutor)
+generator_main = main_of(AsAGenerator, SingleThreadedExecutor)
+queue_main = main_of(OneAfterTheOther)
 
 
 class OtherName(Navigator):
