@@ -205,7 +205,9 @@ class InACoroutine(Artist):
                                      time_from_start=Duration(seconds=begin + step * index).to_msg())
                 for index, place in enumerate(places)
             ]  # fmt: skip
-            goal = FollowJointTrajectory.Goal(trajectory=JointTrajectory(joint_names=self.names, points=points))
+            goal = FollowJointTrajectory.Goal(
+                trajectory=JointTrajectory(joint_names=self.names, points=points)
+            )
             handle = await self.client.send_goal_async(goal)
             await handle.get_result_async()
 
