@@ -26,6 +26,7 @@ from sim.ros.bags.played import BagMessage, PlayedBag
 from sim.ros.bags.qos import recorded_qos
 from sim.ros.messages.codec import encode
 from sim.ros.messages.decoder import decode
+from sim.ros.run import run
 from sim.world import World
 from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel
@@ -94,8 +95,6 @@ class Explorer(BlindDriver):
 @lru_cache(maxsize=32)
 def explored(seed: int, lidar: Mount) -> Recording:
     """The run of a robot in a room of its own. lidar: how the lidar is really mounted."""
-    from sim import run  # imported here: this module is imported with sim
-
     x, y, yaw = lidar
     world = replace(
         World.generate("room", seed=seed, boxes=3, circles=1),
@@ -126,12 +125,15 @@ def silenced(
     silent: when the sensor of `topic` measures nothing (s). hiccup: when the radio delivers nothing of it:
     the messages wait, and arrive all at once.
     """
-    found = []
+    found, newest = [], 0.0
     for row in rows:
         if row.topic == topic and silent[0] <= row.sent < silent[1]:
             continue
-        if row.topic == topic and hiccup[0] <= row.received < hiccup[1]:
-            row = row._replace(received=hiccup[1] + 1e-3 * (row.received - hiccup[0]))
+        if row.topic == topic:
+            waited = hiccup[0] <= row.received < hiccup[1]
+            received = hiccup[1] + 0.1 * (row.received - hiccup[0]) if waited else row.received
+            newest = max(received, newest + 0.004)  # they arrive in their order, and one by one
+            row = row._replace(received=newest)
         found.append(row)
     return found
 

@@ -1,0 +1,222 @@
+"""Reports of a bag: right ones, and wrong ones named after their defect."""
+
+import itertools
+import statistics
+
+import numpy as np
+import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.time import Time
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+from tf2_ros import Buffer, TransformListener
+
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Report(Node):
+    """As one would write it; the wrong ones change one thing each."""
+
+    scan_qos = qos_profile_sensor_data
+
+    def __init__(self):
+        super().__init__("bag_report")
+        self.stamps, self.arrivals, self.statics = [], [], 0
+        self.publisher = self.create_publisher(DiagnosticStatus, "/bag_report", 10)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, self.scan_qos)
+        self.create_subscription(TFMessage, "/tf_static", self.on_static, LATCHED)
+        self.create_timer(1.0, self.report)
+
+    def on_scan(self, scan):
+        self.stamps.append(Time.from_msg(scan.header.stamp).nanoseconds / 1e9)
+        self.arrivals.append(self.get_clock().now().nanoseconds / 1e9)
+
+    def on_static(self, msg):
+        self.statics += len(msg.transforms)
+
+    def times(self):
+        return self.stamps
+
+    def steps(self):
+        return [after - before for before, after in itertools.pairwise(self.times())]
+
+    def rate(self):
+        return 1 / statistics.median(self.steps())
+
+    def gap(self):
+        return max(self.steps())
+
+    def gap_begin(self):
+        return self.times()[self.steps().index(self.gap())]
+
+    def age(self):
+        return statistics.median(b - a for a, b in zip(self.stamps, self.arrivals, strict=True))
+
+    def reliability(self):
+        return self.get_publishers_info_by_topic("/scan")[0].qos_profile.reliability.name.lower()
+
+    def values(self):
+        return {
+            "reliability": self.reliability(),
+            "rate": self.rate(),
+            "gap": self.gap(),
+            "gap_begin": self.gap_begin(),
+            "age": self.age(),
+            "static_transforms": self.statics,
+        }
+
+    def report(self):
+        if len(self.stamps) > 2:
+            pairs = [KeyValue(key=key, value=str(value)) for key, value in self.values().items()]
+            self.publisher.publish(DiagnosticStatus(name="bag", values=pairs))
+
+
+class Arrays(Node):
+    """A design of its own: numpy, and one report at the end, once nothing has arrived for a second."""
+
+    def __init__(self):
+        super().__init__("arrays")
+        self.rows, self.frames, self.done = [], set(), False
+        self.out = self.create_publisher(DiagnosticStatus, "bag_report", 1)
+        self.create_subscription(LaserScan, "scan", self.note, QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT))
+        self.create_subscription(TFMessage, "tf_static", self.mount, QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+        self.create_timer(0.5, self.look)
+
+    def now(self):
+        return self.get_clock().now().nanoseconds * 1e-9
+
+    def note(self, scan):
+        self.rows.append((scan.header.stamp.sec + scan.header.stamp.nanosec * 1e-9, self.now()))
+
+    def mount(self, msg):
+        self.frames |= {each.child_frame_id for each in msg.transforms}
+
+    def look(self):
+        if self.done or not self.rows or self.now() - self.rows[-1][1] < 3.0:
+            return
+        self.done = True
+        measured, arrived = np.array(self.rows).T
+        steps = np.diff(measured)
+        first = int(np.argmax(steps))
+        best_effort = ReliabilityPolicy.BEST_EFFORT
+        offered = [end.qos_profile.reliability for end in self.get_publishers_info_by_topic("/scan")]
+        values = {
+            "reliability": "best_effort" if best_effort in offered else "reliable",
+            "rate": f"{1 / np.median(steps):.3f}",
+            "gap": f"{steps[first]:.3f}",
+            "gap_begin": f"{measured[first]:.6f}",
+            "age": f"{np.median(arrived - measured):.4f}",
+            "static_transforms": f"{len(self.frames)}",
+        }
+        self.out.publish(DiagnosticStatus(values=[KeyValue(key=key, value=values[key]) for key in values]))
+
+
+def main():
+    """A main without a class, which keeps dictionaries."""
+    rclpy.init()
+    node = rclpy.create_node("bag_report")
+    scans, static = {}, []
+    clock = node.get_clock()
+
+    def on_scan(scan):
+        stamp = scan.header.stamp
+        scans[stamp.sec * 10**9 + stamp.nanosec] = clock.now().nanoseconds
+
+    def report():
+        if len(scans) < 3:
+            return
+        steps = {before: after - before for before, after in itertools.pairwise(sorted(scans))}
+        begin = max(steps, key=steps.get)
+        (publisher, *_) = node.get_publishers_info_by_topic("/scan")
+        found = {
+            "rate": 1e9 / statistics.median(steps.values()),
+            "gap": steps[begin] / 1e9,
+            "gap_begin": begin / 1e9,
+            "age": statistics.median(arrived - measured for measured, arrived in scans.items()) / 1e9,
+            "reliability": publisher.qos_profile.reliability.name.lower(),
+            "static_transforms": len(static),
+        }
+        out.publish(DiagnosticStatus(values=[KeyValue(key=key, value=str(found[key])) for key in sorted(found)]))
+
+    out = node.create_publisher(DiagnosticStatus, "/bag_report", 10)
+    node.create_subscription(LaserScan, "/scan", on_scan, qos_profile_sensor_data)
+    node.create_subscription(TFMessage, "/tf_static", lambda msg: static.extend(msg.transforms), LATCHED)
+    node.create_timer(1.0, report)
+    rclpy.spin(node)
+
+
+class ByTheArrivals(Report):
+    def times(self):
+        return self.arrivals
+
+
+class MeanRate(Report):
+    def rate(self):
+        return 1 / statistics.mean(self.steps())
+
+
+class Period(Report):
+    def rate(self):
+        return statistics.median(self.steps())
+
+
+class MeanAge(Report):
+    def age(self):
+        return statistics.mean(b - a for a, b in zip(self.stamps, self.arrivals, strict=True))
+
+
+class SignTurned(Report):
+    def age(self):
+        return -super().age()
+
+
+class SinceTheStart(Report):
+    def gap_begin(self):
+        return super().gap_begin() - self.stamps[0]
+
+
+class DefaultQoS(Report):
+    scan_qos = 10
+
+
+class CountsMessages(Report):
+    def on_static(self, msg):
+        self.statics += 1
+
+
+class AssumesBestEffort(Report):
+    def reliability(self):
+        return "best_effort"
+
+
+class Number(Report):
+    def reliability(self):
+        return self.get_publishers_info_by_topic("/scan")[0].qos_profile.reliability.value
+
+
+class WaitsForTheTransform(Report):
+    def __init__(self):
+        super().__init__()
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+
+    def report(self):
+        if self.buffer.can_transform("base_link", "base_scan", Time()):
+            super().report()
+
+
+class OnlyOneKey(Report):
+    def values(self):
+        return {"rate": self.rate()}
+
+
+class NoValues(Report):
+    def values(self):
+        return {}
+
+
+class Silent(Report):
+    def report(self):
+        pass
