@@ -30,6 +30,7 @@ either complete or absent."""
 USUAL_KB = 1000
 TIMES = TimeLimits()
 CONFIGURATION = "nbgrader_config.py"
+NO_RESULT = "Judged, but no result was written"
 
 
 class _UsageError(Exception):
@@ -86,8 +87,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if options.out:
             options.out.unlink(missing_ok=True)  # else an older result would look like this one's
-        judged, late, key = _judge(options)
-        _write(options, judged, late, key)
+        return _written(options, *_judge(options))
     except _UsageError as error:
         form.error(str(error))
     except (CourseError, NotMarked, SandboxMissing, SandboxFailed) as error:
@@ -96,11 +96,10 @@ def main(arguments: list[str] | None = None) -> int:
         return _failed(f"{error.filename or 'a file'} could not be read or written ({error.strerror})")
     except KeyboardInterrupt:
         return _failed("the command was interrupted")
-    return 0
 
 
 def _judge(options: argparse.Namespace) -> tuple[Judged, LateRule | None, str]:
-    """Judge as the options say. Raises _UsageError before anything is run."""
+    """Judge as the options say. Raises _UsageError, CourseError before anything is run."""
     if not (options.submission and options.assignment):
         raise _UsageError("expected SUBMISSION and --assignment NAME")
     if options.exercise and (options.page or options.receipt):
@@ -121,6 +120,10 @@ def _judge(options: argparse.Namespace) -> tuple[Judged, LateRule | None, str]:
         raise _UsageError(f"expected a name without `/` for --student, saw {options.student!r}")
     if key and not options.student:
         raise _UsageError("with a secret each student has other worlds: expected --student NAME")
+    if options.receipt:
+        from grader.marking.extras.one_submission.receipt_of_one import require_library
+
+        require_library()
     memory = ResourceLimits(memory_mb=int(options.memory_mb))
     seconds = {"cell": options.cell_seconds, "test": options.test_seconds, "notebook": options.seconds}
     how = JudgeSettings(key, options.unsafe, not options.no_self_check, TimeLimits(**seconds), memory)
@@ -147,17 +150,28 @@ def _usual_percent() -> float:
     return float(LateDays(parent=Course(Path.cwd()).app).percent_per_day)
 
 
+def _written(options: argparse.Namespace, judged: Judged, late: LateRule | None, key: str) -> int:
+    """Write all that was requested, or say why not; returns the exit status."""
+    try:
+        _write(options, judged, late, key)
+    except CourseError as error:
+        return _failed(str(error), NO_RESULT)
+    except OSError as error:
+        return _failed(f"{error.filename or 'a file'} could not be written ({error.strerror})", NO_RESULT)
+    return 0
+
+
 def _write(options: argparse.Namespace, judged: Judged, late: LateRule | None, key: str) -> None:
     """Write all that was requested; the result last. Raises CourseError, OSError."""
     data = report(judged, late)
-    if options.page:
-        from grader.marking.extras.one_submission.page_of_one import write_pages
-
-        write_pages(judged, late, Path(CONFIGURATION), options.page)
     if options.receipt:
         from grader.marking.extras.one_submission.receipt_of_one import write_receipt
 
         write_receipt(judged, data, options.issuer, key, options.receipt)
+    if options.page:
+        from grader.marking.extras.one_submission.page_of_one import write_pages
+
+        write_pages(judged, late, Path(CONFIGURATION), options.page)
     text = as_text(data, 1000 * options.output_kb)
     if options.out:
         write_atomically(options.out, text)
@@ -165,8 +179,8 @@ def _write(options: argparse.Namespace, judged: Judged, late: LateRule | None, k
         print(text, end="")
 
 
-def _failed(why: str) -> int:
-    print(printable(f"Not judged: {why.rstrip('.')}."), file=sys.stderr)
+def _failed(why: str, what: str = "Not judged") -> int:
+    print(printable(f"{what}: {why.rstrip('.')}."), file=sys.stderr)
     return 1
 
 

@@ -12,13 +12,17 @@ from grader.marking.gradebook.gradebook_rows import GradebookMark
 from grader.marking.journal import JournalEntry
 
 
+def require_library() -> None:
+    """Raise CourseError unless receipts can be signed here."""
+    if not find_spec("securesystemslib"):
+        raise CourseError("receipts need the library securesystemslib: run `make tools`")
+
+
 def write_receipt(judged: Judged, data: dict[str, Any], issuer: str, key: str, to: Path) -> None:
     """Write the receipt of a mark, signed with .signing-key of this folder, and public.pem next to it.
 
     data: the mark's report. key: the class's secret. Raises CourseError, OSError.
     """
-    if not find_spec("securesystemslib"):
-        raise CourseError("receipts need the library securesystemslib: run `make tools`")
     result = judged.result
     cells = {(note.name, cell.cell): cell.points for note in result.notebooks for cell in note.cells}
     mark = GradebookMark(
