@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -14,7 +14,8 @@ from grader.marking.extras.platforms.core_packages import COMPILED, pinned_requi
 FILES = Path(__file__).with_name("files")
 COURSE_FILES = ("LICENSE", "requirements.lock", "pyproject.toml")
 COURSE_FOLDERS = ("sim", "grader", "ros_packages/python", "ros_packages/interfaces/build_tools")
-LEFT_OUT = {"__pycache__", "build", "rays", "hub", "league", "learning_platform", "dask_cluster", "web"}
+LEAGUE = "league"
+LEFT_OUT = {"__pycache__", "build", "rays", "hub", LEAGUE, "learning_platform", "dask_cluster", "web"}
 KEPT = {"sim/view/web"}
 BUILDS = "colcon build", '.grade("ws"'  # in the notebooks of an assignment whose packages are built
 SETTINGS, SECRET = "settings.json", ".secret"
@@ -25,6 +26,7 @@ class PlatformSettings:
     """The settings of an autograder. exercises: only these, if any. seconds: for the cells of a notebook.
 
     visibility: of tests, as Gradescope names it. percent_per_day: of its points that a late day costs.
+    league: the robot also works in the league's warehouses, for Gradescope's leaderboard.
     """
 
     assignment: str
@@ -32,6 +34,7 @@ class PlatformSettings:
     seconds: float = 480.0
     visibility: str = "visible"
     percent_per_day: float = 0.0
+    league: bool = False
 
     @staticmethod
     def read(folder: Path) -> PlatformSettings:
@@ -49,7 +52,7 @@ def bundle(course: Path, settings: PlatformSettings, secret: str) -> dict[str, b
     if not any(release.glob("*.ipynb")):
         raise CourseError(f"expected an assignment in {release}, saw no notebook: run `make exercises` first")
     files = {f"course/{name}": (course / name).read_bytes() for name in COURSE_FILES}
-    for path in _course_files(course):
+    for path in _course_files(course, LEFT_OUT - {LEAGUE} if settings.league else LEFT_OUT):
         files[f"course/{path.relative_to(course).as_posix()}"] = path.read_bytes()
     for path in sorted(each for each in release.rglob("*") if each.is_file()):
         files[f"release/{settings.assignment}/{path.relative_to(release).as_posix()}"] = path.read_bytes()
@@ -64,12 +67,12 @@ def bundle(course: Path, settings: PlatformSettings, secret: str) -> dict[str, b
     return dict(sorted(files.items()))
 
 
-def _course_files(course: Path) -> Iterator[Path]:
+def _course_files(course: Path, left_out: Set[str]) -> Iterator[Path]:
     for folder in COURSE_FOLDERS:
         for path in sorted((course / folder).rglob("*")):
             inside = path.relative_to(course)
             kept = any(inside.is_relative_to(name) for name in KEPT)
-            if path.is_file() and (kept or not LEFT_OUT.intersection(inside.parts)):
+            if path.is_file() and (kept or not left_out & set(inside.parts)):
                 yield path
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from grader.marking import secret
 from grader.marking.errors import CourseError
+from grader.marking.extras.one_submission.judge_one import read_release
 from grader.marking.extras.platforms import prairielearn
 from grader.marking.extras.platforms.bundle import (
     FILES,
@@ -20,6 +21,7 @@ from grader.marking.extras.platforms.bundle import (
     write_folder,
 )
 from grader.marking.extras.platforms.gradescope import VISIBILITIES
+from grader.marking.extras.platforms.leaderboard import require_capstone
 
 DESCRIPTION = """Write the autograder of an assignment, which judges as `python -m grader mark-one` does.
 
@@ -48,22 +50,30 @@ def parser() -> argparse.ArgumentParser:
     add("--visibility", choices=VISIBILITIES, default=USUAL.visibility, help=shown)
     percent = "points that a late day costs, by gradescope's due date; default: 0"
     add("--percent-per-day", type=float, default=0.0, metavar="PERCENT", help=percent)
+    league = "gradescope's leaderboard: the robot also works in ten warehouses, the same for all students"
+    add("--league", action="store_true", help=league)
     add("--public-worlds", action="store_true", help="leave the secret out: seeds are the public ones")
     return made
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command in the course's folder; returns the exit status."""
-    options = parser().parse_args(arguments)
+    form = parser()
+    options = form.parse_args(arguments)
+    if options.league and options.platform != "gradescope":
+        form.error(f"{options.platform} has no leaderboard, which --league is for: leave it out")
     settings = PlatformSettings(
         options.assignment,
         tuple(options.exercise),
         options.seconds,
         options.visibility,
         options.percent_per_day,
+        options.league,
     )
     public = options.public_worlds or options.platform == "classroom50"  # its files are published
     try:
+        if options.league:
+            require_capstone(read_release(Path("exercises", options.assignment)))
         files = bundle(Path.cwd(), settings, "" if public else secret.read(Path.cwd()))
         files |= {name: (FILES / name).read_bytes() for name in OWN[options.platform]}
         where = _write(options.platform, files, options.to, settings)

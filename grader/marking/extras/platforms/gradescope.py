@@ -6,12 +6,13 @@ The forms are those of https://gradescope-autograders.readthedocs.io/en/latest/s
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from grader.marking.errors import CourseError
-from grader.marking.extras.platforms.texts import check_text, instructor_text, overview
+from grader.marking.extras.platforms.texts import check_text, overview
 
 VISIBILITIES = ("visible", "after_due_date", "after_published", "hidden")
 STATUS = {"passed": "passed", "failed": "failed"}
@@ -41,23 +42,14 @@ def read_metadata(path: Path) -> SubmissionMetadata:
         raise CourseError(f"{path} does not say who submitted ({type(error).__name__}: {error})") from None
 
 
-def results(data: dict[str, Any], visibility: str = "visible") -> dict[str, Any]:
-    """The content of results.json. data: a report of mark-one. visibility: of each test."""
-    tests = [
-        {
-            "number": f"{number}.{part}",
-            "name": f"{exercise['exercise']}: {check['sentence']}",
-            "score": check["points"],
-            "max_score": check["max_points"],
-            **({"status": STATUS[check["status"]]} if check["status"] in STATUS else {}),
-            "output": check_text(check),
-            "output_format": "text",
-            "visibility": visibility,
-        }
-        for number, exercise in enumerate(data["exercises"], 1)
-        for part, check in enumerate(exercise["checks"], 1)
-    ]
-    hidden = {"name": "For the instructor", "number": "0", "score": 0, "max_score": 0, "visibility": "hidden"}
+def results(
+    data: dict[str, Any], visibility: str = "visible", leaderboard: Sequence[Mapping[str, Any]] = ()
+) -> dict[str, Any]:
+    """The content of results.json. data: a report of mark-one. visibility: of each test.
+
+    leaderboard: its columns, if the robot worked in the league's warehouses. There is no hidden test, because
+    students would not see their total. What is for the instructor is printed; see `instructor_text`.
+    """
     return {
         "score": data["points_after_lateness"],
         "execution_time": round(data["seconds"]),
@@ -65,6 +57,24 @@ def results(data: dict[str, Any], visibility: str = "visible") -> dict[str, Any]
         "output_format": "text",
         "visibility": visibility,
         "stdout_visibility": "hidden",
-        "tests": [*tests, {**hidden, "output": instructor_text(data), "output_format": "text"}],
+        "tests": [
+            _test(f"{number}.{part}", exercise["exercise"], check, visibility)
+            for number, exercise in enumerate(data["exercises"], 1)
+            for part, check in enumerate(exercise["checks"], 1)
+        ],
+        **({"leaderboard": list(leaderboard)} if leaderboard else {}),
         "extra_data": {"verdict": data["verdict"], "isolation": data["isolation"]},
+    }
+
+
+def _test(number: str, exercise: str, check: Mapping[str, Any], visibility: str) -> dict[str, Any]:
+    return {
+        "number": number,
+        "name": f"{exercise}: {check['sentence']}",
+        "score": check["points"],
+        "max_score": check["max_points"],
+        **({"status": STATUS[check["status"]]} if check["status"] in STATUS else {}),
+        "output": check_text(check),
+        "output_format": "text",
+        "visibility": visibility,
     }

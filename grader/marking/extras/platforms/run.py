@@ -16,11 +16,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from grader.marking import secret
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
 from grader.marking.extras.one_submission import cli as mark_one
 from grader.marking.extras.platforms import classroom50, gradescope, prairielearn
 from grader.marking.extras.platforms.bundle import SECRET, PlatformSettings
+from grader.marking.extras.platforms.texts import instructor_text
+from grader.marking.progress_line import printable
 
 AUTOGRADER, GRADE = Path("/autograder"), Path("/grade")
 
@@ -30,7 +33,8 @@ class PlatformJob:
     """A submission that a platform wants judged.
 
     outputs: makes the content of its files from a report, by path. closed: folders that no student's process
-    may enter. late: the options of `mark-one` on lateness.
+    may enter. late: the options of `mark-one` on lateness. instructors_read: what is printed is shown to
+    instructors, and to no student.
     """
 
     submission: Path
@@ -39,6 +43,7 @@ class PlatformJob:
     closed: tuple[Path, ...] = ()
     late: list[str] = field(default_factory=list)
     output_kb: int = 1000
+    instructors_read: bool = False
 
 
 def run_gradescope(settings: PlatformSettings, root: Path = AUTOGRADER) -> PlatformJob:
@@ -50,9 +55,29 @@ def run_gradescope(settings: PlatformSettings, root: Path = AUTOGRADER) -> Platf
         late += ["--percent-per-day", f"{settings.percent_per_day:g}"]
 
     def outputs(data: dict[str, Any]) -> Mapping[Path, str]:
-        return {root / "results" / "results.json": _json(gradescope.results(data, settings.visibility))}
+        columns = _leaderboard(root / "submission", settings) if settings.league else []
+        found = gradescope.results(data, settings.visibility, columns)
+        return {root / "results" / "results.json": _json(found)}
 
-    return PlatformJob(root / "submission", about.student, outputs, (root,), late)
+    return PlatformJob(root / "submission", about.student, outputs, (root,), late, instructors_read=True)
+
+
+def _leaderboard(submission: Path, settings: PlatformSettings) -> list[dict[str, Any]]:
+    from grader.marking.extras.platforms import leaderboard  # most bundles leave the league out
+
+    how = leaderboard.LeagueSettings(settings.seconds, _secret())
+    columns, why = leaderboard.columns_or_reason(submission, _release(settings), how)
+    if why:
+        print(printable(f"No entry in the leaderboard: {why}."))
+    return columns
+
+
+def _secret() -> str:
+    return secret.read_file(Path(SECRET)) if Path(SECRET).exists() else ""
+
+
+def _release(settings: PlatformSettings) -> Path:
+    return Path("release", settings.assignment).absolute()
 
 
 def run_prairielearn(settings: PlatformSettings, root: Path = GRADE) -> PlatformJob:
@@ -88,7 +113,7 @@ def execute(job: PlatformJob, settings: PlatformSettings) -> int:
     with tempfile.TemporaryDirectory() as place:
         report = Path(place) / "report.json"
         words = [str(job.submission), "--assignment", settings.assignment, "--student", job.student]
-        words += ["--release", str(Path("release", settings.assignment).absolute()), "--out", str(report)]
+        words += ["--release", str(_release(settings)), "--out", str(report)]
         words += ["--seconds", f"{settings.seconds:g}", "--output-kb", str(job.output_kb), *job.late]
         words += ["--secret", SECRET] if Path(SECRET).exists() else []
         words += [word for name in settings.exercises for word in ("--exercise", name)]
@@ -98,6 +123,8 @@ def execute(job: PlatformJob, settings: PlatformSettings) -> int:
     for path, text in job.outputs(data).items():
         write_atomically(path, text)
     print(f"{data['points']:g} of {data['max_points']:g} points; isolation: {data['isolation']}")
+    if job.instructors_read:
+        print("\n".join(map(printable, instructor_text(data).splitlines())))
     return 0
 
 

@@ -3,13 +3,15 @@
 from collections.abc import Mapping
 from typing import Any
 
+from grader.marking.progress_line import printable
+
 MARKS = {"passed": "passed", "failed": "failed", "skipped": "not judged", "broken": "not judged"}
 
 
 def check_text(check: Mapping[str, Any]) -> str:
     """Return what was expected, what was seen and what to do next; "" for a check that passed."""
     parts = (("Expected", check["expected"]), ("Saw", check["saw"]), ("Hint", check["hint"]))
-    return "\n".join(f"{name}: {text}" for name, text in parts if text)
+    return _plain("\n".join(f"{name}: {text}" for name, text in parts if text))
 
 
 def exercise_note(exercise: Mapping[str, Any]) -> str:
@@ -39,7 +41,12 @@ def overview(data: Mapping[str, Any]) -> str:
         lines.append("Your instructor will look at some of the points.")
     if data["points_by_hand"]:
         lines.append(f"Your instructor gives up to {data['points_by_hand']:g} points more by hand.")
-    return "\n".join(lines)
+    return _plain("\n".join(lines))
+
+
+def _plain(text: str) -> str:
+    """Text without control characters: platforms make colors and links of some, in what a student printed."""
+    return "\n".join(map(printable, text.split("\n")))
 
 
 def instructor_text(data: Mapping[str, Any]) -> str:

@@ -35,6 +35,9 @@ GRADESCOPE = closed(
         score=NUMBER, max_score=NUMBER, status={"enum": ["passed", "failed"]}, name=TEXT, number=TEXT,
         output=TEXT, output_format=FORMAT, visibility=VISIBLE,
     )},
+    leaderboard={"type": "array", "minItems": 1, "items": closed(
+        ["name", "value"], name=TEXT, value={"type": "number"}, order={"enum": ["asc", "desc"]},
+    )},
 )  # fmt: skip
 # As Classroom 50's schemas/result-v1.schema.json describes result.json; other fields are refused there, too.
 STAMP = {"type": "string", "minLength": 1}
@@ -102,23 +105,35 @@ def test_gradescope_gets_a_test_for_each_check_and_the_total(data):
     found = gradescope.results(data, "after_due_date")
     jsonschema.validate(found, GRADESCOPE)
     assert (found["score"], found["execution_time"]) == (13.0, 7)
-    first, _, _, turn, hidden = found["tests"]
+    first, _, _, turn = found["tests"]
     assert first == {
         "number": "1.1", "name": "greeting: It greets.", "score": 5.0, "max_score": 5.0, "status": "passed",
         "output": "", "output_format": "text", "visibility": "after_due_date",
     }  # fmt: skip
     assert turn["output"] == "Expected: a square\nSaw: a <b>circle</b> | *\nHint: Turn by 90 degrees."
-    assert (hidden["visibility"], hidden["max_score"]) == ("hidden", 0)
-    assert hidden["output"] == "It imports `gc`.\nIsolation: separate user.\nEvidence: release ab."
+    assert found["stdout_visibility"] == "hidden"
+    assert "leaderboard" not in found
 
 
-def test_what_is_for_the_instructor_is_in_hidden_tests_only(data):
-    found = gradescope.results(data)
-    shown = [test for test in found["tests"] if test["visibility"] != "hidden"]
-    assert "imports" not in json.dumps([found["output"], shown])
+def test_no_test_is_hidden_because_students_would_not_see_their_total_then(data):
+    for visibility in ("visible", "after_due_date"):
+        tests = gradescope.results(data, visibility)["tests"]
+        assert {test["visibility"] for test in tests} == {visibility}
+
+
+def test_what_is_for_the_instructor_is_in_no_result(data):
+    assert "imports" not in json.dumps(gradescope.results(data))
     assert "imports" not in json.dumps(prairielearn.results(data))
     assert "imports" not in json.dumps(classroom50.result(data, RUNNER)) + classroom50.release_body(data)
-    assert "imports" in instructor_text(data)
+    assert instructor_text(data) == "It imports `gc`.\nIsolation: separate user.\nEvidence: release ab."
+
+
+def test_control_characters_that_a_student_printed_make_no_colors_and_no_links(data):
+    data["reason"] = "It printed \x1b]8;;javascript:alert(1)\x1b\\here."
+    data["exercises"][1]["checks"][1]["saw"] = "\x1b[31mred\x1b[0m\u202e\n2"
+    assert overview(data).splitlines()[2] == "It printed  ]8;;javascript:alert(1) \\here."
+    text = check_text(data["exercises"][1]["checks"][1])
+    assert text.splitlines()[1:3] == ["Saw:  [31mred [0m ", "2"]
 
 
 def test_the_overview_explains_points_that_are_not_the_sum_of_the_checks(data):
