@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import difflib
 import zipfile
 from collections.abc import Sequence
-from io import BytesIO
+from io import BytesIO, StringIO
 from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
@@ -16,6 +17,7 @@ from grader.marking.page_templates import template_environment
 from grader.marking.submission.assignment_release import Release
 
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
+RELEASE = "release/release.py"
 Rows = list[tuple[str, str, bool]]  # lines side by side, and whether they are equal
 
 
@@ -53,17 +55,27 @@ def _plain(lines: Sequence[str]) -> list[str]:
 
 
 def write_texts(texts: Sequence[StudentText], release: Release, path: Path) -> None:
-    """Write a ZIP with a `.py` for each student, as JPlag and Dolos take it. Raises OSError.
+    """Write a ZIP with a `.py` for each student, for JPlag and Dolos. Raises OSError.
 
-    The folder `release` in it is what JPlag calls base code.
+    The folder `release` in it is what JPlag calls base code. Dolos reads info.csv: the names of students, and
+    that the release is a template.
     """
+    names = [(text, text.student.replace("/", "_")) for text in texts]
+    files = {f"{name}/{name}.py": text.source for text, name in names}
+    rows = [(f"{name}/{name}.py", text.student, "false") for text, name in names]
+    files |= {RELEASE: release_source(release), "info.csv": _csv([*rows, (RELEASE, "the release", "true")])}
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for text in texts:
-            name = text.student.replace("/", "_")
-            archive.writestr(zipfile.ZipInfo(f"{name}/{name}.py", ZIP_EPOCH), text.source)
-        archive.writestr(zipfile.ZipInfo("release/release.py", ZIP_EPOCH), release_source(release))
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name, ZIP_EPOCH), content, zipfile.ZIP_DEFLATED)
     write_atomically(path, buffer.getvalue(), 0o600)
+
+
+def _csv(rows: Sequence[tuple[str, str, str]]) -> str:
+    """The rows under the headings that Dolos knows."""
+    table = StringIO(newline="")
+    csv.writer(table, lineterminator="\n").writerows([("filename", "full_name", "ignored"), *rows])
+    return table.getvalue()
 
 
 _pages = template_environment(Path(__file__).parent)

@@ -139,9 +139,12 @@ def test_the_command_writes_pages_and_a_zip_that_accuse_no_one(course, capsys):
         assert page.stat().st_mode & 0o077 == 0
     with zipfile.ZipFile(place / "texts.zip") as archive:
         students = [f"student{n:03}/student{n:03}.py" for n in range(12)]
-        assert archive.namelist() == [*students, "release/release.py"]
+        assert archive.namelist() == [*students, "release/release.py", "info.csv"]
+        rows = archive.read("info.csv").decode().splitlines()
+        assert rows[:2] == ["filename,full_name,ignored", "student000/student000.py,student000,false"]
+        assert rows[-1] == "release/release.py,the release,true"
         source = archive.read("student000/student000.py").decode()
-        for name in archive.namelist():
+        for name in [*students, "release/release.py"]:
             ast.parse(archive.read(name), name)
     given = "from grader.exercises import topics"
     assert given in (ROOT / "exercises" / ASSIGNMENT / "topics.ipynb").read_text()
