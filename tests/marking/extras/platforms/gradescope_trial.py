@@ -1,17 +1,15 @@
-"""Runs a built Gradescope autograder on submissions in a root file system laid out as Gradescope does.
+"""Judges twenty submissions, most of them hostile, with a Gradescope autograder as Gradescope does.
 
-    python -m tests.marking.extras.platforms.gradescope_trial ROOT [NAME ...]
+    python -m tests.marking.extras.platforms.gradescope_trial FOLDER dist/gradescope-02_topics.zip [NAME ...]
 
-ROOT is a root file system, such as mmdebstrap makes it, in which setup.sh of a ZIP for 02_topics has been run
-in /autograder/source, with /proc and /dev mounted. Each submission, of which most are hostile, runs with the
-capabilities and the filter of system calls that Docker gives a container. Prints the points, the seconds and
-the isolation of each, and writes the results beside ROOT. It needs root. It is no test, because it takes a
-minute for each submission and a network for setup.sh.
+In FOLDER/root it makes a root file system laid out as Gradescope's, runs setup.sh there unless that was done
+before, and then run_autograder for each submission; see containers.py. Prints the points, the seconds and the
+isolation of each, and writes the results to FOLDER/results. It is no test, because it takes a minute for each
+submission; test_containers.py judges one of them. It needs root.
 """
 import copy
 import json
 import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -21,9 +19,9 @@ import jsonschema
 import nbformat
 
 from grader.marking.release.samples import submission
+from tests.marking.extras.platforms import containers
 from tests.marking.extras.platforms.test_results import GRADESCOPE, METADATA
 from tests.marking.hostile import corpus
-from tests.marking.sandbox.docker_like import run_in_container
 from tests.marking.tiny import ROOT
 
 ASSIGNMENT, NOTEBOOK = "02_topics", "topics.ipynb"
@@ -67,38 +65,49 @@ def makers() -> dict[str, Callable[[Path], None]]:
     return made
 
 
+def install(place: Path, archive: Path) -> Path:
+    """Make the root file system and run setup.sh in it, unless that was done before; returns its root."""
+    root = place / "root"
+    if not (root / "autograder" / "run_autograder").exists():
+        containers.make_root(root)
+        containers.put_bundle(archive, root / "autograder" / "source")
+        done = containers.run(root, "/autograder/source/setup.sh", HOME="/root")
+        assert done.returncode == 0, done.stdout + done.stderr
+        shutil.copy(root / "autograder" / "source" / "run_autograder", root / "autograder")
+    return root
+
+
 def judge(root: Path, write: Callable[[Path], None]) -> tuple[dict | None, str, float]:
     """Run the autograder as Gradescope does: the results, what it printed, and the seconds."""
     top = root / "autograder"
-    for name in ("submission", "results"):
-        shutil.rmtree(top / name, ignore_errors=True)
-        (top / name).mkdir()
+    containers.lay_out(top, "submission", "results")
     write(top / "submission")
     (top / "submission_metadata.json").write_text(json.dumps(METADATA))
     began = time.monotonic()
-    clean = ["env", "-i", "PATH=/usr/bin:/bin", "HOME=/root", "LANG=C.UTF-8"]
-    done = run_in_container("chroot", str(root), *clean, "/autograder/run_autograder", timeout=1200)
+    done = containers.run(root, "env", "-C", "/autograder", "/autograder/run_autograder", HOME="/root")
     path = top / "results" / "results.json"
     found = json.loads(path.read_text()) if path.exists() else None
     return found, (done.stdout + done.stderr).strip(), time.monotonic() - began
 
 
-def main(root: Path, chosen: list[str]) -> None:
+def main(place: Path, archive: Path, chosen: list[str]) -> None:
     """Judge all, or those named."""
-    kept = root.with_name("gradescope-results")
+    root = install(place, archive)
+    kept = place / "results"
     kept.mkdir(exist_ok=True)
     for name, write in makers().items():
         if chosen and name not in chosen:
             continue
         found, printed, seconds = judge(root, write)
-        about = "no result"
+        (kept / f"{name}.txt").write_text(printed)
+        about = f"no result. {printed.splitlines()[-1:]}"
         if found is not None:
             jsonschema.validate(found, GRADESCOPE)
             about = f"{found['score']:g} points, {found['extra_data']['isolation']}"
             (kept / f"{name}.json").write_text(json.dumps(found, indent=1))
-        print(f"{name}: {about}, {seconds:.0f} s. {printed.splitlines()[-1:] or ''}", flush=True)
+        print(f"{name}: {about}, {seconds:.0f} s", flush=True)
 
 
 if __name__ == "__main__":
-    assert subprocess.run(["id", "-u"], capture_output=True).stdout == b"0\n", "it needs root"
-    main(Path(sys.argv[1]).resolve(), sys.argv[2:])
+    assert not containers.missing(), containers.missing()
+    main(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3:])

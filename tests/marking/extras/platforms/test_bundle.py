@@ -146,7 +146,7 @@ def test_judging_imports_nothing_of_the_lab():
 REPORT = {
     "points": 3.0, "max_points": 4.0, "points_after_lateness": 3.0, "late": None, "verdict": "marked",
     "reason": "", "repairs": [], "flags": [], "exercises": [], "needs_look": False, "points_by_hand": 0.0,
-    "isolation": "bubblewrap", "evidence": {}, "seconds": 1.0, "assignment": ASSIGNMENT,
+    "isolation": "bubblewrap", "evidence": {"release": "ab"}, "seconds": 1.0, "assignment": ASSIGNMENT,
 }  # fmt: skip
 
 
@@ -164,7 +164,7 @@ def judge(monkeypatch):
     return got
 
 
-def test_of_gradescope_come_name_and_times_and_there_go_the_results(course, judge):
+def test_of_gradescope_come_name_and_times_and_there_go_the_results(course, judge, capsys):
     root = course / "autograder"
     root.mkdir(mode=0o755)
     (root / "submission_metadata.json").write_text(json.dumps(METADATA))
@@ -179,9 +179,12 @@ def test_of_gradescope_come_name_and_times_and_there_go_the_results(course, judg
     assert named["--exercise"] == "square"
     assert json.loads((root / "results" / "results.json").read_text())["score"] == 3.0
     assert stat.S_IMODE(root.stat().st_mode) == 0o700
+    assert capsys.readouterr().out == (
+        "3 of 4 points; isolation: bubblewrap\nIsolation: bubblewrap.\nEvidence: release ab.\n"
+    )
 
 
-def test_prairielearn_and_classroom50_get_their_own(course, judge, monkeypatch):
+def test_prairielearn_and_classroom50_get_their_own(course, judge, monkeypatch, capsys):
     root = course / "grade"
     (root / "data").mkdir(parents=True)
     (root / "data" / "data.json").write_text('{"variant_seed": 7}')
@@ -193,6 +196,7 @@ def test_prairielearn_and_classroom50_get_their_own(course, judge, monkeypatch):
     assert json.loads((course / "result.json").read_text())["score"] == 0
     assert (course / "release-body.md").read_text().startswith("### 02_topics: 3 of 4 points\n")
     assert [words[words.index("--student") + 1] for words in judge] == ["variant 7", "ann"]
+    assert capsys.readouterr().out == 2 * "3 of 4 points; isolation: bubblewrap\n"  # students may read it
 
 
 def test_what_was_not_judged_has_no_result(course, monkeypatch):
@@ -212,3 +216,37 @@ def test_settings_are_read_as_they_were_written(course):
     assert PlatformSettings.read(course) == written
     with pytest.raises(CourseError):
         bundle(course, PlatformSettings("nothing"), "")
+
+
+AUTOGRADER = bundles.FILES / "autograder.py"
+
+
+def start_autograder(folder: Path, bundle_folder: Path, **user: object) -> tuple[int, str]:
+    """The exit status and what goes to stderr, in a student's checkout."""
+    path = "" if user else os.environ["PATH"]
+    clean = ["/usr/bin/env", "-i", f"PATH={path}", f"CLASSROOM50_BUNDLE_DIR={bundle_folder}"]
+    command = [*clean, "/usr/bin/python3", "-c", AUTOGRADER.read_text(encoding="utf-8")]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, **user)
+    return done.returncode, done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
+def test_classroom50s_autograder_without_root_says_what_it_needs(tmp_path):
+    nobody = {"user": 65534, "group": 65534, "extra_groups": []}
+    assert start_autograder(Path("/"), tmp_path, **nobody) == (
+        1, "::error::The autograder did not judge: expected root, or sudo without a password.\n"
+    )  # fmt: skip
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="as another user it needs sudo")
+def test_classroom50s_autograder_says_why_it_could_not_be_installed(tmp_path):
+    bundle_folder, checkout = tmp_path / "bundle", tmp_path / "checkout"
+    bundle_folder.mkdir()
+    checkout.mkdir()
+    (bundle_folder / "install.sh").write_text("exit 7\n")
+    status, wrong = start_autograder(checkout, bundle_folder)
+    assert status == 1
+    why = "it could not be installed here: status 7 of `sh "
+    assert wrong.startswith(f"::error::The autograder did not judge: {why}")
+    assert wrong.endswith("/source/install.sh /opt/ros2-course`.\n")
+    assert list(checkout.iterdir()) == []
