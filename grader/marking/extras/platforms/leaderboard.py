@@ -25,7 +25,7 @@ USUAL = ResourceLimits()
 
 @dataclass(frozen=True)
 class LeagueSettings:
-    """How a robot works there. seconds: for all warehouses together. secret: the warehouses depend on it."""
+    """Settings of a robot's work there. seconds: for all warehouses. secret: the warehouses depend on it."""
 
     seconds: float
     secret: str = field(default="", repr=False)

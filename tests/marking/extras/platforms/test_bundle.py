@@ -232,8 +232,8 @@ def start_autograder(folder: Path, bundle_folder: Path, **user: object) -> tuple
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
 def test_classroom50s_autograder_without_root_says_what_it_needs(tmp_path):
-    nobody = {"user": 65534, "group": 65534, "extra_groups": []}
-    assert start_autograder(Path("/"), tmp_path, **nobody) == (
+    unprivileged = {"user": 65534, "group": 65534, "extra_groups": []}
+    assert start_autograder(Path("/"), tmp_path, **unprivileged) == (
         1, "::error::The autograder did not judge: expected root, or sudo without a password.\n"
     )  # fmt: skip
 

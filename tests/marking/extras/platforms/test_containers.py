@@ -1,4 +1,4 @@
-"""The autograders of all three platforms, installed and run in root file systems laid out as theirs.
+"""The autograders of all three platforms, installed and run in root file systems laid out as there.
 
 Needs root, mmdebstrap, PyPI and what `make wheels` builds; gradescope_trial.py judges more submissions.
 """
@@ -124,7 +124,8 @@ def test_classroom50_judges_a_checkout(course, root, contained):
     write(place / "checkout")
     runner = [] if contained else ["setpriv", "--reuid=1001", "--regid=1001", "--clear-groups"]
     if not contained:
-        (root / "etc" / "sudoers.d" / "runner").write_text("#1001 ALL=(ALL) NOPASSWD: ALL\n")
+        containers.run(root, "useradd", "--uid", "1001", "runner")
+        (root / "etc" / "sudoers.d" / "runner").write_text("runner ALL=(ALL) NOPASSWD: ALL\n")
         for path in (place, place / "checkout", place / "checkout" / NOTEBOOK):
             os.chown(path, 1001, 1001)
     command = [*runner, "env", "-C", "/home/runner/checkout", "python3", "/home/runner/bundle/autograder.py"]

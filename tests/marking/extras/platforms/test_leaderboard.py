@@ -72,10 +72,10 @@ def test_a_real_robot_gets_its_row_in_the_sandbox(robots, short, student):
     found, why = columns_or_reason(submission, release, LeagueSettings(60))
     assert why == ""
     assert [each["name"] for each in found[:3]] == [each["name"] for each in COLUMNS[:3]]
-    assert found[0]["value"] == 0  # nobody delivers in four seconds
+    assert found[0]["value"] == 0  # no robot delivers in four seconds
 
 
-def test_whoever_has_no_row_is_told_to_the_instructor_and_keeps_the_mark(robots, short, monkeypatch):
+def test_a_robot_without_a_row_keeps_its_mark_and_the_instructor_reads_why(robots, short, monkeypatch):
     release = robots / "exercises" / ASSIGNMENT
     gus = robots / "class/submitted/gus" / ASSIGNMENT
     nothing = [], "the robot's programs could not be run in any warehouse"
