@@ -49,11 +49,8 @@ def require_capstone(release: Release) -> None:
         )
 
 
-def play(submission: Path, release_folder: Path, how: LeagueSettings) -> list[dict[str, Any]]:
-    """The columns of the leaderboard; none if the robot did not work in any warehouse.
-
-    Raises CourseError, SandboxMissing and SandboxFailed.
-    """
+def play(submission: Path, release_folder: Path, how: LeagueSettings) -> LeagueRow:
+    """The robot's row in the league's table. Raises CourseError, SandboxMissing and SandboxFailed."""
     release = read_release(release_folder)
     submitted = read_submission(submission, release)
     task = MarkingTask("robot", release, submitted, NOT_STORED, ContestProcedure(how.contest))
@@ -65,7 +62,7 @@ def play(submission: Path, release_folder: Path, how: LeagueSettings) -> list[di
     if result.verdict == "broken":
         raise CourseError(result.reason.rstrip("."))
     (row,) = standings([result], how.contest, {"robot": "robot"})
-    return columns(row)
+    return row
 
 
 def columns(row: LeagueRow) -> list[dict[str, Any]]:
@@ -81,12 +78,17 @@ def columns(row: LeagueRow) -> list[dict[str, Any]]:
     ]
 
 
-def columns_or_reason(
+def columns_and_note(
     submission: Path, release_folder: Path, how: LeagueSettings
 ) -> tuple[list[dict[str, Any]], str]:
-    """The columns, and why there are none. Raises nothing, because the mark counts without them."""
+    """The columns, and what the instructor should know: why there are none, or what went wrong; or "".
+
+    Raises nothing, because the mark counts without a leaderboard.
+    """
     try:
-        found = play(submission, release_folder, how)
+        row = play(submission, release_folder, how)
     except (CourseError, SandboxMissing, SandboxFailed) as error:
-        return [], str(error)
-    return found, "" if found else "the robot's programs could not be run in any warehouse"
+        return [], f"no entry: {error}"
+    if not row.games:
+        return [], "no entry: the robot's programs could not be run in any warehouse"
+    return columns(row), row.note

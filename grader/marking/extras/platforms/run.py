@@ -66,9 +66,9 @@ def _leaderboard(submission: Path, settings: PlatformSettings) -> list[dict[str,
     from grader.marking.extras.platforms import leaderboard  # most bundles leave the league out
 
     how = leaderboard.LeagueSettings(settings.seconds, _secret())
-    columns, why = leaderboard.columns_or_reason(submission, _release(settings), how)
-    if why:
-        print(printable(f"No entry in the leaderboard: {why}."))
+    columns, note = leaderboard.columns_and_note(submission, _release(settings), how)
+    if note:
+        print(printable(f"Leaderboard: {note.rstrip('.')}."))
     return columns
 
 

@@ -12,7 +12,7 @@ from grader.marking.extras.league.contest import Contest, Game
 from grader.marking.extras.league.standings import LeagueRow
 from grader.marking.extras.platforms import gradescope, leaderboard, run
 from grader.marking.extras.platforms.bundle import PlatformSettings, bundle
-from grader.marking.extras.platforms.leaderboard import LeagueSettings, columns, columns_or_reason
+from grader.marking.extras.platforms.leaderboard import LeagueSettings, columns, columns_and_note
 from grader.marking.submission.assignment_release import load_release
 from tests.marking.extras.league.capstones import ASSIGNMENT, CRASHES, PROGRAMS, classroom, robot
 from tests.marking.extras.platforms.test_bundle import REPORT, course  # noqa: F401
@@ -66,11 +66,14 @@ def robots(tmp_path) -> Path:
     return classroom(tmp_path / "course", {"anna": robot(), "dora": CRASHES, "gus": PROGRAMS})
 
 
-@pytest.mark.parametrize("student", ["anna", "dora"])
+NOTES = {"anna": "", "dora": "Something went wrong in 2 of 2 warehouses, first in 1."}
+
+
+@pytest.mark.parametrize("student", NOTES)
 def test_a_real_robot_gets_its_row_in_the_sandbox(robots, short, student):
     submission, release = robots / "class/submitted" / student / ASSIGNMENT, robots / "exercises" / ASSIGNMENT
-    found, why = columns_or_reason(submission, release, LeagueSettings(60))
-    assert why == ""
+    found, note = columns_and_note(submission, release, LeagueSettings(60))
+    assert note == NOTES[student]
     assert [each["name"] for each in found[:3]] == [each["name"] for each in COLUMNS[:3]]
     assert found[0]["value"] == 0  # no robot delivers in four seconds
 
@@ -78,18 +81,18 @@ def test_a_real_robot_gets_its_row_in_the_sandbox(robots, short, student):
 def test_a_robot_without_a_row_keeps_its_mark_and_the_instructor_reads_why(robots, short, monkeypatch):
     release = robots / "exercises" / ASSIGNMENT
     gus = robots / "class/submitted/gus" / ASSIGNMENT
-    nothing = [], "the robot's programs could not be run in any warehouse"
-    assert columns_or_reason(gus, release, LeagueSettings(60)) == nothing
+    nothing = [], "no entry: the robot's programs could not be run in any warehouse"
+    assert columns_and_note(gus, release, LeagueSettings(60)) == nothing
     none = robots / "nothing.ipynb"
-    assert columns_or_reason(none, release, LeagueSettings(60)) == (
-        [], f"expected a submission, a folder or a notebook, saw no {none}"
+    assert columns_and_note(none, release, LeagueSettings(60)) == (
+        [], f"no entry: expected a submission, a folder or a notebook, saw no {none}"
     )  # fmt: skip
 
     def no_pool(*_, **__):
         raise SandboxMissing("no sandbox here")
 
     monkeypatch.setattr(leaderboard, "Pool", no_pool)
-    assert columns_or_reason(gus, release, LeagueSettings(60)) == ([], "no sandbox here")
+    assert columns_and_note(gus, release, LeagueSettings(60)) == ([], "no entry: no sandbox here")
 
 
 def judged(course: Path, monkeypatch) -> dict:  # noqa: F811
@@ -115,7 +118,7 @@ def test_the_row_is_in_the_results(course, monkeypatch):  # noqa: F811
         got.append(words)
         return COLUMNS, ""
 
-    monkeypatch.setattr(leaderboard, "columns_or_reason", play)
+    monkeypatch.setattr(leaderboard, "columns_and_note", play)
     assert judged(course, monkeypatch)["leaderboard"] == COLUMNS
     submission, release, how = got[0]
     assert (submission, release) == (course / "autograder/submission", course / "release/13_delivery")
@@ -123,11 +126,11 @@ def test_the_row_is_in_the_results(course, monkeypatch):  # noqa: F811
 
 
 def test_without_a_row_the_results_are_whole_and_the_instructor_reads_why(course, monkeypatch, capsys):  # noqa: F811
-    monkeypatch.setattr(leaderboard, "columns_or_reason", lambda *_: ([], "it broke\x1b"))
+    monkeypatch.setattr(leaderboard, "columns_and_note", lambda *_: ([], "no entry: it broke\x1b"))
     found = judged(course, monkeypatch)
     assert found["score"] == 3.0
     assert "leaderboard" not in found
-    assert capsys.readouterr().out.splitlines()[0] == "No entry in the leaderboard: it broke ."
+    assert capsys.readouterr().out.splitlines()[0] == "Leaderboard: no entry: it broke ."
 
 
 def test_a_bundle_with_a_league_has_its_code_and_others_have_not(course):  # noqa: F811
