@@ -112,10 +112,6 @@ def _has_no_spread(run: Recording, cloud: Cloud) -> bool:
     return max(cloud.shape[1:]) < 0.01
 
 
-def _never_grows(run: Recording, cloud: Cloud) -> bool:
-    return cloud.shape.yaw < 0.065 and cloud.shape.along < 0.6 * cloud.should.along
-
-
 def _is_swapped(run: Recording, cloud: Cloud) -> bool:
     along, across = (_ratio(*pair) for pair in zip(cloud.shape[1:3], cloud.should[1:3], strict=True))
     return (along < 0.9 and across > 1.05) or (along > 1.1 and across < 0.95)
@@ -135,11 +131,10 @@ def _is_narrow(run: Recording, cloud: Cloud) -> bool:
         _is_off,
     "All particles are at one point. Draw them with the covariance of /initialpose: [0], [7] and [35] are "
     "the variances of x, y and yaw.": _has_no_spread,
-    "The cloud doesn't grow while the robot drives: add noise to each particle's own step.": _never_grows,
     "Along and across look swapped. The noise belongs to the body: add it to the forward and the left part "
     "of the step first, then rotate by the particle's yaw.": _is_swapped,
-    "Too narrow: is the noise a variance per meter? A standard deviation is sqrt(0.02 * meters), and "
-    "normal() takes the standard deviation. With 0.02 m steps, 0.02 * meters is far less.": _is_narrow,
+    "Too narrow: each particle's own step needs noise of its own, with the variance of the task. normal() "
+    "takes the standard deviation, sqrt(0.02 * meters), which is far more than 0.02 * meters.": _is_narrow,
     "Too wide: normal() takes the standard deviation, sqrt(0.02 * meters), and each step has its own meters.":
         otherwise,
 })

@@ -104,18 +104,11 @@ def _ignores_the_mounting(run: Recording, found: Weighed) -> bool:
     return is_close(found.top, run.world.lidar.mounted_at(run.world.start))
 
 
-def _one_is_all(run: Recording, found: Weighed) -> bool:
-    return bool(found.close[found.heaviest[0]])
-
-
 @weigh.check(6, after=weighs_each, hints={
     "All weights are equal, so the scan has changed nothing.": _are_equal,
     "The heaviest poses are where base_link would be if the lidar were in its middle and faced forward. The "
     "rays start at the lidar: look up scan.header.frame_id in base_link, and move the points there first.":
         _ignores_the_mounting,
-    "The heaviest pose is right, but others that are just as near got less than wrong ones: are their "
-    "weights 0? Add a constant to each ray's probability (z_rand), so that no ray is impossible.":
-        _one_is_all,
     "Rotate the points by the pose's yaw, then add its position. The field's row comes from y, and its "
     "column from x. Leave out rays that are inf, -inf or nan.": otherwise,
 })

@@ -242,6 +242,17 @@ class Silent(Cloud):
         pass
 
 
+class StopsPublishing(Cloud):
+    """Publishes three clouds."""
+
+    left = 3
+
+    def publish(self):
+        if self.left:
+            self.left -= 1
+            super().publish()
+
+
 class TooFew(Cloud):
     count = 50
 

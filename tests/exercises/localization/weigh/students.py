@@ -208,6 +208,13 @@ class Silent(Weigher):
         pass
 
 
+class AnswersOnce(Weigher):
+    def on_candidates(self, msg):
+        if not hasattr(self, "answered"):
+            self.answered = True
+            super().on_candidates(msg)
+
+
 class AllEqual(Weigher):
     def weights(self, guesses):
         return np.full(len(guesses), 1 / len(guesses))
