@@ -90,6 +90,12 @@ THERE = {
     "exercises.silence.doctor.silent_systems": (
         "_misspelt cases", "needs the private seed",
     ),
+    "exercises.bags.bag_faults.faulty_bags": (
+        "Case draw_case", "needs the private seed",
+    ),
+    "exercises.bags.bag_report.quiet_lidar": (
+        "Drawn draw_bag", "needs the private seed",
+    ),
     "exercises.silence.graph.speakers": (
         "QuestionPublisher Speaker plans speakers", "needs the private seed",
     ),

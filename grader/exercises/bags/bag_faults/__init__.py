@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from grader.checks import Missed, hinting, publishes
+from grader.checks import Missed, publishes
 from grader.companions.recorded_robots import BEGIN, END
 from grader.exercise import Exercise, Scenario
 from grader.exercises.bags.bag_faults.faulty_bags import BUSY, FAULTS, NONE, Case, draw_case, player_of
@@ -117,8 +117,7 @@ def finds_the_second_odometry(run: Recording) -> None:
 
 
 def _diagnosis(run: Recording) -> Diagnosis:
-    with hinting(guess="Publish it once a second: the last one counts."):
-        status = publishes(run, TOPIC, TYPE)[-1].message
+    status = publishes(run, TOPIC, TYPE)[-1].message
     if status.name not in NAMES:
         hint = "The name of the DiagnosticStatus is that of the fault, as it is written in the task."
         raise Missed(f"one of {', '.join(NAMES)} as name", f"{status.name!r}", hint)
