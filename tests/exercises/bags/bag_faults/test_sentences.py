@@ -21,7 +21,7 @@ def test_an_amount_that_is_off_has_a_hint(kind, off, hint):
     assert _amount_hint(case, case.amount + off) == hint
 
 
-def test_the_whole_angle_of_the_lidar_is_told_from_its_error():
+def test_the_whole_angle_of_the_lidar_is_no_error():
     case = replace(draw_case("lidar_yaw", 1), mount=(0.0, 0.0, math.pi / 2))
     hint = "That is the whole angle of the lidar: how far is it from what /tf_static says?"
     assert _amount_hint(case, case.amount + math.pi / 2) == hint
