@@ -56,7 +56,7 @@ def drives(seed: int) -> tuple[ShortDrive, ...]:
 
 
 def _rolled(rng: np.random.Generator) -> np.ndarray:
-    """The distances that the wheels roll in each step: straight or in a curve, some of it backwards, with a stop."""
+    """Draw how far the wheels roll in each step: straight, in a curve or backwards, with a stop."""
     steps: list[tuple[float, float]] = []
     stop = int(rng.integers(8, 25))
     while len(steps) < STEPS:
