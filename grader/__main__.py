@@ -16,6 +16,7 @@ COMMANDS = {  # module, function and arguments
     "grades": ("grader.marking.extras.learning_platform.cli", "grades", "ASSIGNMENT"),
     "platform": ("grader.marking.extras.platforms.cli", "main", "gradescope|... ASSIGNMENT"),
     "likeness": ("grader.marking.extras.likeness.cli", "main", "ASSIGNMENT"),
+    "variants": ("grader.marking.extras.own_notebooks.cli", "main", "ASSIGNMENT"),
     "receipts": ("grader.marking.extras.receipts.cli", "receipts", "--issuer TEXT"),
     "verify": ("grader.marking.extras.receipts.cli", "verify", "RECEIPT"),
 }

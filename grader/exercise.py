@@ -25,6 +25,7 @@ from grader.typos import (
     typos_of,
     with_right_types,
 )
+from grader.variants import Varied
 from grader.workspace.interfaces import Interfaces
 from grader.workspace.near_misses import Correction
 from grader.workspace.package import Package
@@ -34,7 +35,7 @@ from sim.network import Network
 
 
 @dataclass(eq=False)
-class Exercise:
+class Exercise(Varied):
     '''A task with its checks and the runs they judge. The simplest has one run:
 
         counter = Exercise("counter", "A counting node", seconds=5)
@@ -53,7 +54,7 @@ class Exercise:
     build_type: that of the package. uses: a package of interfaces in the same workspace that it imports.
     names_count: names are a part of the task, so those alone may earn more than 30 % of the points.
     extra_allowed: messages beyond those that the task wants cost nothing.
-    near_misses: corrections of a package's files, which earns half of the points then.
+    near_misses: corrections of a package's files, which earns half of the points then. variants: see Varied.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -169,12 +170,11 @@ class Exercise:
     def judge(self, source: ProgramSource, secret: str = "", order: str | None = None) -> Score:
         """The same for programs wherever they live, on private worlds where there is a secret.
 
-        order: of all runs; None for that of each run, see `grader.orders`.
-        Raises ValueError without a check that gives points, and what the cast raises.
+        order: of all runs; None for those of `grader.orders`. Raises ValueError without points.
         """
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
-        with redirect_stderr():
+        with redirect_stderr(), self.in_use():
             package = self.package, self.build_type, self.uses
             found = source.package(*package) if self.package else source.refusal()
             score = self._score(source, secret, found, order)

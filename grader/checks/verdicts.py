@@ -154,7 +154,7 @@ class _Judging:
     def _missed(self, item: Check, missed: Missed) -> Verdict:
         for other in missed.because:
             if other.name in self.verdicts and self.verdicts[other.name].status == "failed":
-                return skipped(item, FIX_FIRST.format(other.sentence))
+                return skipped(item, FIX_FIRST.format(self.verdicts[other.name].sentence))
         cause = "" if missed.hint else explain(self.recording)
         if missed.credit == 0.0 and self.fault and not missed.unsafe:
             return replace(skipped(item, EXPLAINED_BY_FAULT), typo=missed.typo)

@@ -3,7 +3,8 @@
     MarkingError
     ├── CourseError             the command can't begin or go on; the instructor reads what to do
     │   ├── GradebookError      the gradebook can't be read or written
-    │   └── UnknownTest         the release has a test cell that can't be marked here
+    │   ├── UnknownTest         the release has a test cell that can't be marked here
+    │   └── NoVariants          the variants of a release can't be drawn
     ├── CommandFailed           a command of nbgrader's own failed
     ├── SandboxMissing          this system has no sandbox
     ├── SandboxFailed           the sandbox doesn't work
@@ -30,6 +31,10 @@ class GradebookError(CourseError):
 
 class UnknownTest(CourseError):
     """A test cell that can't be marked here; the text says which, what was expected and what to do."""
+
+
+class NoVariants(CourseError):
+    """Variants that can't be drawn; the text says why and what to do, without a full stop."""
 
 
 class CommandFailed(MarkingError):

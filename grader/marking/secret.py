@@ -20,6 +20,10 @@ WITHOUT_SANDBOX = (
     "Not marked: `nbgrader autograde` runs students' code without a sandbox, where it can read and change "
     "all your files. Use `python -m grader mark`, or set the environment variable RUN_WITHOUT_SANDBOX=yes."
 )
+VARIED = (
+    "Not marked: {0} has variants, and `nbgrader autograde` would run the same tests for every student. Use "
+    "`python -m grader mark {0}`."
+)
 
 
 def read(folder: Path) -> str:
@@ -51,6 +55,17 @@ def require_acceptance() -> None:
         raise SystemExit(WITHOUT_SANDBOX)
 
 
+def require_no_variants(assignment: str) -> None:
+    """Raise SystemExit for an assignment whose tests are different for each student."""
+    import nbformat
+
+    from grader.marking.judge.personal_release import has_variants
+
+    found = Path("exercises", assignment).glob("*.ipynb") if assignment else ()
+    if has_variants(nbformat.read(path, 4) for path in found):
+        raise SystemExit(VARIED.format(assignment))
+
+
 def set_course_secret(notebooks: Sequence[str] = (), **_: object) -> None:
     """Pass the secret of one student to the kernel that marks, as the variable COURSE_SECRET.
 
@@ -61,6 +76,7 @@ def set_course_secret(notebooks: Sequence[str] = (), **_: object) -> None:
     continue.
     """
     require_acceptance()
+    require_no_variants(Path(notebooks[0]).parent.name if notebooks else "")
     text = read(Path())
     if text:
         student = Path(notebooks[0]).parents[1].name if notebooks else ""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import contextlib
 import functools
+import importlib
+import re
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -14,6 +16,7 @@ from typing import Any
 import nbformat
 
 from grader.marking.judge.display_only_cells import DISPLAYS
+from grader.marking.judge.personal_release import personal_notebook
 from tests.exercises.score_tables import ROOT
 
 WRITES = "%%writefile "
@@ -21,15 +24,26 @@ NOT_DONE = {"play", *DISPLAYS}  # calls that run programs or show their source: 
 
 
 @functools.cache
-def solution(topic: str, name: str) -> tuple[Any, ...]:
+def solution(
+    topic: str, name: str, number: int | None = None, copied: int | None = None
+) -> tuple[Any, ...]:
     """What the notebook gives to an exercise, as `grade` takes it.
 
-    A workspace is the path of one in a folder that is there until the process ends.
+    A workspace is the path of one in a folder that is there until the process ends. number: of the variant;
+    None for the course's own notebook. copied: the number of the variant that the answers are copied from.
     """
     (path,) = ROOT.glob(f"solutions/*_{topic}/*.ipynb")
+    notebook = nbformat.read(path, 4)
+    if number is not None:
+        exercise = getattr(importlib.import_module(f"grader.exercises.{topic}"), name)
+        answers = personal_notebook(notebook, {exercise.name: number if copied is None else copied})
+        notebook = personal_notebook(notebook, {exercise.name: number})
+        for cell, answer in zip(notebook.cells, answers.cells, strict=True):
+            if cell.metadata.get("nbgrader", {}).get("solution"):
+                cell.source = answer.source
     space: dict[str, Any] = {}
     with _in_a_folder():
-        for cell in nbformat.read(path, 4).cells:
+        for cell in notebook.cells:
             _write(cell)
             for statement in _statements(cell):
                 if graded := _graded(statement, name):
@@ -63,6 +77,7 @@ def _write(cell: Any) -> None:
     if first.startswith(WRITES):
         path = Path(first.removeprefix(WRITES).strip())
         path.parent.mkdir(parents=True, exist_ok=True)
+        sys.modules.pop(path.stem, None)  # of the same notebook in another variant
         path.write_text(rest + "\n", encoding="utf-8")
 
 
@@ -77,8 +92,9 @@ def _statements(cell: Any) -> list[ast.stmt]:
 def _graded(statement: ast.stmt, name: str) -> ast.Call | None:
     """The call of `grade` of the exercise of this name, if the statement is one."""
     call = getattr(statement, "value", None)
-    words = ast.unparse(call.func).split(".")[-2:] if isinstance(call, ast.Call) else []
-    return call if words == [name, "grade"] else None
+    function = ast.unparse(call.func) if isinstance(call, ast.Call) else ""
+    words = re.sub(r"\.variant\(\d+\)", "", function).split(".")
+    return call if words[-2:] == [name, "grade"] else None
 
 
 def _runs(statement: ast.stmt) -> bool:

@@ -1,8 +1,10 @@
 import os
 
+import nbformat
 import pytest
 
 from grader.marking import secret
+from grader.marking.judge.personal_release import TAG
 from grader.seeds import private_seed, secret_of_student
 from tests.marking.tiny import ROOT
 
@@ -34,6 +36,21 @@ def test_seeds_differ_by_student_and_are_the_same_in_each_marking(secret_file):
     secret.remove_course_secret()
     assert shown == [668764764, 4190639955, 668764764]
     assert secret_of_student("", "ann") == ""
+
+
+def test_nbgrader_s_own_marking_refuses_an_assignment_with_variants(secret_file):
+    secret_file.write_text("d1ce")
+    first = nbformat.v4.new_markdown_cell("# Varied", metadata={"tags": [TAG]})
+    folder = secret_file.parent / "exercises" / "01"
+    folder.mkdir(parents=True)
+    nbformat.write(nbformat.v4.new_notebook(cells=[first]), folder / "varied.ipynb")
+    with pytest.raises(SystemExit) as refused:
+        secret.set_course_secret(notebooks=["class/submitted/ann/01/varied.ipynb"])
+    assert str(refused.value) == (
+        "Not marked: 01 has variants, and `nbgrader autograde` would run the same tests for every student. "
+        "Use `python -m grader mark 01`."
+    )
+    assert "COURSE_SECRET" not in os.environ
 
 
 def test_without_the_file_marking_uses_the_public_seeds(secret_file):

@@ -24,7 +24,7 @@ BUDGETS = {
     "tests": 115_000,
     "tests/exercises": 31_000,
     "tests/grader": 10_500,
-    "tests/marking": 17_500,
+    "tests/marking": 18_250,
     "tests/ros_packages": 5_250,
     "tests/sim": 25_000,
     "tests/students": 14_500,

@@ -14,12 +14,16 @@ from grader.responses.course_goals import (
     picked,
     sequence,
 )
+from grader.variants import Variants
 from sim.evidence import Goal, Recording, stamps
 
 LIMITS = (1, 20)
 
 steps = Exercise("steps", "A server that reports and refuses", seconds=24, companions=[Examiner],
-                 seeds=(1, 2))
+                 seeds=(1, 2), variants=Variants(
+    {"pause": (0.5, 0.3, 0.2), "half": ("half a second", "0.3 s", "0.2 s")},
+    texts=("takes {half}", "{pause:g} s", "time.sleep({pause:g})"),
+))
 
 
 def _is_good(goal: Goal) -> bool:
@@ -71,11 +75,12 @@ def publishes_feedback(run: Recording) -> list[Goal]:
 @steps.check(2, after=publishes_feedback, guess="Wait once for each number: time.sleep(0.5).")
 def takes_its_time(run: Recording, goals: list[Goal]) -> None:
     """The numbers come every 0.5 s."""
+    pause = steps.drawn.pause
     for goal in goals:
         moments = stamps(goal.feedback)
         mean = (moments[-1] - moments[0]) / max(1, len(moments) - 1)
-        if not 0.4 < mean < 0.6 or longest_pause(moments)[0] > 0.8:
-            raise Missed(f"feedback on {goal_text(goal)} every 0.5 s", f"every {mean:.2g} s")
+        if not 0.8 * pause < mean < 1.2 * pause or longest_pause(moments)[0] > pause + 0.3:
+            raise Missed(f"feedback on {goal_text(goal)} every {pause} s", f"every {mean:.2g} s")
 
 
 @steps.check(1, after=(accepts_good_orders, publishes_feedback))

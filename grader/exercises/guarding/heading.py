@@ -8,25 +8,27 @@ from grader.checks.motion import yaw_at
 from grader.companions.blind_drivers import Circling
 from grader.exercise import Exercise
 from grader.geometry.angles import least_turn, turn_between
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds
 
 Headings = list[tuple[Seconds, float]]  # degrees
 
-HEADING = "/heading"
 NEAR = 1.0  # degrees
 LAGS = 0.0, 0.05, 0.1, 0.15  # s for which a heading may be late
 EXPLAINED = 0.5  # of the points, where one mistake explains all headings
 
 heading = Exercise("heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling],
-                   seeds=(1, 2))
+                   seeds=(1, 2),
+                   variants=Variants({"topic": ("/heading", "/compass", "/yaw")}, texts=("{topic}",)))
 
 
 @heading.check(2)
 def publishes_a_heading(run: Recording) -> Headings:
     """The node subscribes to /odom, and publishes Float64 messages on /heading."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
-    publishes(run, HEADING, "std_msgs/msg/Float64", at_least=20)
-    return series(run, HEADING, "data")
+    topic = heading.drawn.topic
+    publishes(run, topic, "std_msgs/msg/Float64", at_least=20)
+    return series(run, topic, "data")
 
 
 def _all_are(formula: Callable[[float], float]) -> Callable[..., bool]:
@@ -74,7 +76,7 @@ def heading_is_right(run: Recording, headings: Headings) -> Headings:
         explained = EXPLAINED * any(explains(run, wrong) for explains in MISTAKES.values())
         raise Missed(f"{yaw_at(run, stamp):.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(wrong,),
                      credit=explained, measured=headings)
-    lasts(run, HEADING)
+    lasts(run, heading.drawn.topic)
     return headings
 
 

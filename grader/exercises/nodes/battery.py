@@ -4,9 +4,15 @@ from grader.checks import LogMatch, Missed, come_every, hinting, logs
 from grader.checks.fields import listed
 from grader.checks.logs import FLOOD
 from grader.exercise import Exercise
+from grader.variants import Variants
 from sim.evidence import Recording
 
-battery = Exercise("battery", "A battery that warns", seconds=12)
+battery = Exercise("battery", "A battery that warns", seconds=12, variants=Variants(
+    {"warning": (30, 40)},
+    {"alarm": (10, 20)},
+    texts=("{warning} %", "charge > {warning}", "charge > {alarm}", "above {alarm} %", "at {alarm} %",
+           "At {alarm} %", "exactly {alarm} %", "and {alarm} % belong"),
+))
 
 
 @battery.check(3, lasts=True)
@@ -25,19 +31,20 @@ def reports_the_charge(run: Recording) -> list[LogMatch]:
 @battery.check(3, after=reports_the_charge)
 def informs(run: Recording, lines: list[LogMatch]) -> None:
     """Above 30 % the line is at info level."""
-    _have_level(run, lines, range(40, 91, 10), "INFO")
+    _have_level(run, lines, range(battery.drawn.warning + 10, 91, 10), "INFO")
 
 
 @battery.check(3, after=reports_the_charge)
 def warns(run: Recording, lines: list[LogMatch]) -> None:
     """From 30 % down to above 10 % it is a warning."""
-    _have_level(run, lines, range(20, 31, 10), "WARN")
+    limits = battery.drawn
+    _have_level(run, lines, range(limits.alarm + 10, limits.warning + 1, 10), "WARN")
 
 
 @battery.check(3, after=reports_the_charge)
 def alarms(run: Recording, lines: list[LogMatch]) -> None:
     """At 10 % and below it is an error."""
-    _have_level(run, lines, range(0, 11, 10), "ERROR")
+    _have_level(run, lines, range(0, battery.drawn.alarm + 1, 10), "ERROR")
 
 
 def _have_level(run: Recording, lines: list[LogMatch], charges: range, level: str) -> None:

@@ -3,9 +3,16 @@
 from grader.checks import LogMatch, Missed, come_every, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise
+from grader.variants import Variants
 from sim.evidence import Recording
 
-counter = Exercise("counter", "A node that counts", seconds=4)
+counter = Exercise("counter", "A node that counts", seconds=4, variants=Variants(
+    {"period": (0.5, 0.25, 0.2), "often": ("twice", "four times", "five times"),
+     "first": ("0.500", "0.250", "0.200"), "second": ("1.000", "0.500", "0.400")},
+    {"word": ("Count", "Step", "Tick")},
+    texts=("{period:g} s", "create_timer({period:g}, ", "{often} a second", "{word}: "),
+    elsewhere=("[{first}] [counter]: {word}: 1", "[{second}] [counter]: {word}: 2"),
+))
 
 
 @counter.check(3)
@@ -17,7 +24,8 @@ def called_counter(run: Recording) -> None:
 @counter.check(5)
 def logs_counts(run: Recording) -> list[LogMatch]:
     """The node logs lines like “Count: 1” at info level."""
-    return logs(run, r"^\W*?count\W+(\d+)", level="INFO", example="Count: 1")
+    word = counter.drawn.word
+    return logs(run, rf"^\W*?{word}\W+(\d+)", level="INFO", example=f"{word}: 1")
 
 
 @counter.check(6, after=logs_counts)
@@ -39,4 +47,4 @@ def counts_up(run: Recording, lines: list[LogMatch]) -> None:
 @counter.check(6, after=logs_counts)
 def counts_every_half_second(run: Recording, lines: list[LogMatch]) -> None:
     """A count comes every 0.5 s."""
-    come_every(run, lines, 0.5)
+    come_every(run, lines, counter.drawn.period)

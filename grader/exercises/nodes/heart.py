@@ -3,15 +3,24 @@
 from grader.checks import LogMatch, Missed, come_every, logs
 from grader.exercise import Exercise
 from grader.responses import EDGE
+from grader.variants import Variants
 from sim.evidence import Recording
 
-heart = Exercise("heart", "A heart with two timers", seconds=5)
+heart = Exercise("heart", "A heart with two timers", seconds=5, variants=Variants(
+    {"namespace": ("robot1", "robot3", "robot7")},
+    {"period": (0.25, 0.2, 0.5), "often": ("four times", "five times", "twice"),
+     "beats": ("four beats", "five beats", "two beats"),
+     "one": (4, 5, 2), "two": (8, 10, 4), "less": (3, 4, 1)},
+    texts=("/{namespace}", "{period:g} s", "create_timer({period:g}, ", "{often} a second", "{beats}",
+           "Beats: {one}", "Beats: {two}", "Beats: {less}"),
+    elsewhere=("[{namespace}.heart]: Beats: {one}",),
+))
 
 
 @heart.check(4)
 def called_heart_of_robot1(run: Recording) -> None:
     """The node is called heart and is in the namespace /robot1."""
-    name, nodes = "/robot1/heart", run.graph.nodes
+    name, nodes = f"/{heart.drawn.namespace}/heart", run.graph.nodes
     if name in nodes:
         return
     hint = "super().__init__ takes the name first; pass the namespace as a keyword: namespace=..."
@@ -24,13 +33,13 @@ def called_heart_of_robot1(run: Recording) -> None:
 def beats(run: Recording) -> list[LogMatch]:
     """“Beat” is logged every 0.25 s."""
     lines = logs(run, r"^\W*?beat\W*$", level="INFO", example="Beat")
-    return come_every(run, lines, 0.25, credit=0.2)
+    return come_every(run, lines, heart.drawn.period, credit=0.2)
 
 
 @heart.check(5, lasts=True)
 def reports(run: Recording) -> list[LogMatch]:
     """A report like “Beats: 4” is logged every second."""
-    lines = logs(run, r"^\W*?beats\W+(\d+)", level="INFO", example="Beats: 4")
+    lines = logs(run, r"^\W*?beats\W+(\d+)", level="INFO", example=f"Beats: {heart.drawn.one}")
     return come_every(run, lines, 1.0, credit=0.2)
 
 

@@ -4,16 +4,18 @@ import math
 
 from grader.checks import Missed, otherwise, publishes, series, stands_still
 from grader.exercise import Exercise, Scenario
+from grader.variants import Variants
 from grader.worlds.rooms import hall, past_a_post, short_sighted
 from sim.evidence import Recording
-
-STOP_AT = 1.0  # meters before the wall
 
 stop = Exercise("stop", "Stop before the wall", scenarios=[
     Scenario(hall, 30, 1, name="hall"),
     Scenario(lambda seed: short_sighted(hall(seed)), 30, 2, name="short-sighted"),
     Scenario(past_a_post, 12, 3, name="post"),
-])
+], variants=Variants(
+    {"limit": (1.0, 0.8), "about": ("one meter", "0.8 m")},
+    texts=("{limit:g} m", "about {about} from", "msg.ranges) > {limit}", "with {limit} (meters)"),
+))
 
 
 def _any(run: Recording, field: str) -> bool:
@@ -35,28 +37,28 @@ def sets_off(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     far = max(pose.x for pose in run.path)
     if far < 0.5:
-        expected = "a robot that drives ahead while nothing is closer than 1 m"
+        expected = f"a robot that drives ahead while nothing is closer than {stop.drawn.limit:g} m"
         raise Missed(expected, f"it gets {far:.2f} m", picture="path", about=(far,))
 
 
 @stop.check(3, after=sets_off, only=("hall", "short-sighted"), hints={
     "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).":
-        lambda run, gap: gap > STOP_AT,
+        lambda run, gap: gap > stop.drawn.limit,
     "That is late for a robot at 0.3 m/s: do you publish zero at once, in the same callback?":
-        lambda run, gap: gap > STOP_AT - 0.25,
+        lambda run, gap: gap > stop.drawn.limit - 0.25,
     "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (meters).": otherwise,
 })
 def stops_in_time(run: Recording) -> None:
     """It stops as soon as the wall is closer than 1 m."""
-    gap = run.world.bounds[2] - run.path[-1].x
+    gap, limit = run.world.bounds[2] - run.path[-1].x, stop.drawn.limit
     if run.contacts:
         saw = f"the robot drove into it at {run.contacts[0].stamp:.3g} s"
-        hint = ("Decide again for every scan: ahead while min(msg.ranges) is above 1.0, else 0.0. Is "
+        hint = (f"Decide again for every scan: ahead while min(msg.ranges) is above {limit}, else 0.0. Is "
                 "the comparison the right way round?")
         raise Missed("a stop before the wall", saw, hint, picture="path", unsafe=True)
-    if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
-        expected = ("a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few "
-                    "centimeters")
+    if not limit - 0.15 <= gap <= limit + 0.05:
+        expected = (f"a stop about {limit - 0.05:.2f} m before the wall: the limit is {limit:g} m, and "
+                    "braking takes a few centimeters")
         raise Missed(expected, f"it ends {gap:.2f} m before the wall", picture="path", about=(gap,))
 
 
@@ -66,8 +68,9 @@ def looks_all_round(run: Recording) -> None:
     """It also stops for a post that is nearer than 1 m, but not straight ahead."""
     [post] = run.world.circles
     gap = min(math.dist((post.x, post.y), pose[1:3]) for pose in run.path) - post.radius
-    if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
-        expected = "a stop about 0.95 m from the post"
+    limit = stop.drawn.limit
+    if not limit - 0.15 <= gap <= limit + 0.05:
+        expected = f"a stop about {limit - 0.05:.2f} m from the post"
         raise Missed(expected, f"its smallest distance from it is {gap:.2f} m", picture="path")
 
 

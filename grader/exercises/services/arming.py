@@ -9,12 +9,12 @@ from grader.checks.services import call_text, course_calls, is_success, response
 from grader.companions.service_clients import Pilot
 from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
+from grader.variants import Variants
 from grader.worlds.trusting import trusting
 from sim.evidence import Call, Recording
 
 ARM = "/arm"
 CALLS = 6  # that the pilot makes
-SPEED = 0.3  # m/s
 STILL, JUST = 0.01, 0.3  # meters, seconds
 INVERTED = "Each call did the opposite of its request: write self.armed = request.data."
 SWITCHES = "Each call toggles it, whatever the request: write self.armed = request.data."
@@ -26,7 +26,11 @@ SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and bra
 arming = Exercise("arming", "A robot that drives only when it is armed", scenarios=[
     Scenario("yard", 17, 1, [Pilot]),
     Scenario(trusting("yard"), 17, 2, [Pilot]),
-])
+], variants=Variants(
+    {"speed": (0.3, 0.2, 0.25)},
+    {"on": ("armed", "enabled", "ready"), "off": ("disarmed", "disabled", "locked")},
+    texts=("{speed:g} m/s", "linear.x = {speed:g}", "`{on}` or `{off}`", '"{on}" if self.armed else "{off}"'),
+))
 
 
 @arming.check(3)
@@ -61,7 +65,7 @@ def reports_its_state(run: Recording) -> None:
     SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
     "A second data=True must not switch it off again: write self.armed = request.data.":
         lambda run, call: any(other.request.data for other in _before(run, call)[-1:]),
-    f"In drive: linear.x = {SPEED} if self.armed. Publish a command every time drive is called, 10 times a "
+    "In drive: linear.x = 0.3 if self.armed. Publish a command every time drive is called, 10 times a "
     "second.": otherwise,
 })
 def drives_while_armed(run: Recording) -> None:
@@ -73,8 +77,8 @@ def drives_while_armed(run: Recording) -> None:
         # From the first pose to the last: they are up to 50 ms inside the phase, which may be short.
         seconds = phase.path[-1].stamp - phase.path[0].stamp if phase.path else 0.0
         speed = traveled(phase) / seconds if seconds else 0.0
-        if not math.isclose(speed, SPEED, rel_tol=0.15):
-            expected, saw = f"{SPEED} m/s after {call_text(call)}", f"{speed:.2g} m/s"
+        if not math.isclose(speed, arming.drawn.speed, rel_tol=0.15):
+            expected, saw = f"{arming.drawn.speed} m/s after {call_text(call)}", f"{speed:.2g} m/s"
             raise Missed(expected, saw, picture="path", about=(call,))
 
 
@@ -118,11 +122,12 @@ def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
 
 
 def _word(call: Call) -> str:
-    return "armed" if call.request.data else "disarmed"
+    return str(arming.drawn.on if call.request.data else arming.drawn.off)
 
 
 def _words(call: Call) -> list[str]:
-    return re.findall(r"\b(?:dis)?armed\b", response_fields(call).get("message", "").lower())
+    either = rf"\b(?:{arming.drawn.on}|{arming.drawn.off})\b"
+    return re.findall(either, response_fields(call).get("message", "").lower())
 
 
 def _is_inverted(run: Recording) -> bool:

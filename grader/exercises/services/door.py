@@ -9,13 +9,18 @@ from grader.companions.service_servers import Door
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
 from grader.responses import Window
+from grader.variants import Variants
 from sim.evidence import Call, Recording
 
 WAITING = ("While a callback or __init__ waits, nothing else in the node can run, and no response can "
            "arrive. Send the request, return, and let the done callback do the rest.")
 OPEN = "/door/open"
 
-door = Exercise("door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2))
+door = Exercise("door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2),
+                variants=Variants(
+    {"speed": (0.3, 0.2, 0.25)},
+    texts=("drives at {speed:g} m/s", "self.speed = {speed:g}"),
+))
 
 
 @door.check(4)
@@ -92,11 +97,12 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
         saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
         hint = "Not every answer is a yes: check answer.success before you drive."
         raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
-    late = [(at, speed) for at, speed in commands if at > opened + 0.5 and not is_near(speed, 0.3, 0.03)]
+    wanted = door.drawn.speed
+    late = [(at, speed) for at, speed in commands if at > opened + 0.5 and not is_near(speed, wanted, 0.03)]
     if late or not yes:
         saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
-        guess = "In the done callback, when answer.success is True: self.speed = 0.3."
-        raise Missed("0.3 m/s once the door has said yes", saw, guess=guess)
+        guess = f"In the done callback, when answer.success is True: self.speed = {wanted}."
+        raise Missed(f"{wanted} m/s once the door has said yes", saw, guess=guess)
 
 
 def _yes(calls: list[Call]) -> Call | None:

@@ -6,6 +6,7 @@ from grader.checks.topics import keeps_pace
 from grader.companions.service_servers import SlowAdder, WheelEncoders
 from grader.exercise import Exercise
 from grader.responses import Window
+from grader.variants import Variants
 from sim.evidence import Call, Recording
 
 MOST = 1.5  # questions a second, and messages for each answer: more are guesses
@@ -14,16 +15,22 @@ GROUPS = ("While look waits for a response, or awaits it, nothing else in its ca
           "timer and the client in a separate ReentrantCallbackGroup; or use a done callback.")
 
 ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders],
-                 seeds=(1, 2))
+                 seeds=(1, 2), variants=Variants(
+    {"period": (1.0, 0.5), "often": ("once a second", "twice a second"),
+     "Often": ("Once a second", "Twice a second"), "rate": (1, 2), "after": ("one second", "half a second")},
+    texts=("{often}", "{Often}", "create_timer({period}, self.look", "should show {rate} Hz",
+           "After {after} the heart"),
+))
 
 
 @ticks.check(4)
 def calls_every_second(run: Recording) -> list[Call]:
     """Once a second the node calls /add_two_ints."""
     made = has_client(run, ADD, "example_interfaces/srv/AddTwoInts")
-    due = int(run.seconds) - 1
-    if not 0.8 * due <= len(made) <= MOST * run.seconds:
-        hint = ("Let a timer with a period of 1 s call look, and send the request there: "
+    period = ticks.drawn.period
+    due = int(run.seconds / period) - 1
+    if not 0.8 * due <= len(made) <= MOST * run.seconds / period:
+        hint = (f"Let a timer with a period of {period:g} s call look, and send the request there: "
                 "self.client.call_async(request).")
         raise Missed(f"{due} requests in {run.seconds:g} s", f"{len(made)}", hint)
     return made

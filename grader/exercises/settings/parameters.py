@@ -10,10 +10,11 @@ from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import Tuner
 from grader.exercise import Exercise, Scenario
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Call, Recording, Seconds
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
-LOW, HIGH, DEFAULT, LAUNCHED = 0.0, 0.5, 0.2, 0.3  # m/s
+LOW, HIGH = 0.0, 0.5  # m/s
 SETTINGS = 7  # that the tuner makes
 INSIDE = f"{LOW} <= parameter.value <= {HIGH}"
 
@@ -22,7 +23,10 @@ TOO_FAST = 0.9  # m/s, with which it is started once
 parameters = Exercise("parameters", "A speed that can be set", scenarios=[
     Scenario("yard", 14, 1, [Tuner], name="tuned"), Scenario("yard", 14, 2, [Tuner], name="tuned"),
     Scenario("yard", 2, name="too fast", prepare=partial(started_with, "speed", TOO_FAST)),
-])
+], variants=Variants(
+    {"speed": (0.2, 0.15, 0.25)},
+    texts=("with {speed:g} (m/s)", '"speed", {speed:g})', "begin at {speed:g}", "the speed is {speed:g}"),
+))
 
 
 @parameters.check(2, only="tuned")
@@ -39,7 +43,8 @@ def declares_speed(run: Recording) -> float:
 @parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
     """Until it is set, the speed is 0.2, and the robot drives at that speed."""
-    begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
+    default = parameters.drawn.speed
+    begins_with(run, speed, default, f'The default: self.declare_parameter("speed", {default}).')
 
 
 @parameters.check(4, after=declares_speed, only="tuned")

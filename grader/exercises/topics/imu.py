@@ -6,9 +6,15 @@ from grader.checks import Missed, publishes, rate, within
 from grader.checks.fields import stamp_words
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Message, Recording, since_start
 
-imu = Exercise("imu", "An IMU", seconds=3, extra_allowed=True)
+imu = Exercise("imu", "An IMU", seconds=3, extra_allowed=True, variants=Variants(
+    {"rate": (100, 50, 200), "period": (0.01, 0.02, 0.005)},
+    {"frame": ("imu_link", "imu_sensor", "body_imu")},
+    texts=("at {rate} Hz", "{rate} times a second", "create_timer({period:g}, ", "{frame}"),
+    elsewhere=("{rate} times a second",),
+))
 IMU = "/imu/data"
 LEFT = math.sqrt(0.5)  # z and w of the quaternion that says so
 
@@ -22,20 +28,21 @@ def imu_is_published(run: Recording) -> list[Message]:
 @imu.check(4, after=imu_is_published)
 def imu_at_100_hz(run: Recording) -> None:
     """They come at 100 Hz."""
-    rate(run, IMU, 100.0, tolerance=0.05)
+    rate(run, IMU, float(imu.drawn.rate), tolerance=0.05)
 
 
 @imu.check(2, after=imu_is_published)
 def imu_names_its_frame(run: Recording, sent: list[Message]) -> None:
     """The header's frame_id is imu_link."""
+    wanted = imu.drawn.frame
     for row in sent:
         frame = row.message.header.frame_id
-        if frame != "imu_link":
-            hint = 'Set it before publish(): msg.header.frame_id = "imu_link".'
-            if frame == "/imu_link":
+        if frame != wanted:
+            hint = f'Set it before publish(): msg.header.frame_id = "{wanted}".'
+            if frame == f"/{wanted}":
                 hint = "A frame's name doesn't begin with a slash."
             saw = f"“{frame}” at {row.stamp:.3g} s"
-            raise Missed("header.frame_id “imu_link” in every message", saw, hint)
+            raise Missed(f"header.frame_id “{wanted}” in every message", saw, hint)
 
 
 @imu.check(3, after=imu_is_published)

@@ -4,29 +4,34 @@ import itertools
 
 from grader.checks import Missed, publishes, rate, within
 from grader.exercise import Exercise
+from grader.variants import Variants
 from sim.evidence import Message, Recording
 
-temperature = Exercise("temperature", "A thermometer", seconds=10)
-TEMPERATURE = "/sensor/temperature"
+temperature = Exercise("temperature", "A thermometer", seconds=10, variants=Variants(
+    {"topic": ("/sensor/temperature", "/room/temperature", "/lab/temperature")},
+    {"low": (20, 15, 30), "high": (25, 18, 36)},
+    texts=("{topic}", "from {low} to {high}", "between {low} and {high}", "uniform({low}.0, {high}.0)"),
+))
 
 
 @temperature.check(5)
 def temperature_is_published(run: Recording) -> list[Message]:
     """The node publishes Float32 messages on /sensor/temperature."""
-    return publishes(run, TEMPERATURE, "std_msgs/msg/Float32")
+    return publishes(run, temperature.drawn.topic, "std_msgs/msg/Float32")
 
 
 @temperature.check(4, after=temperature_is_published)
 def temperature_once_a_second(run: Recording) -> None:
     """A temperature comes once a second."""
-    rate(run, TEMPERATURE, 1.0)
+    rate(run, temperature.drawn.topic, 1.0)
 
 
 @temperature.check(4, after=temperature_is_published,
                    guess="random.uniform(20.0, 25.0) gives a number in this range.")
 def temperature_in_range(run: Recording) -> list[float]:
     """Every temperature is from 20 to 25 °C."""
-    return within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
+    drawn = temperature.drawn
+    return within(run, drawn.topic, "data", float(drawn.low), float(drawn.high), unit="°C")
 
 
 @temperature.check(2, after=(temperature_is_published, temperature_in_range))
@@ -37,5 +42,6 @@ def temperature_changes(run: Recording, sent: list[Message], _: list[float]) -> 
     if len(values) < 2 or same > len(values) / 2:
         repeated = f"{same} times the same value as before"
         saw = f"only {values[0]:.4g} °C" if len(set(values)) == 1 else repeated
-        hint = "Draw a new number in the timer's callback, each time: random.uniform(20.0, 25.0)."
+        draw = f"random.uniform({temperature.drawn.low}.0, {temperature.drawn.high}.0)"
+        hint = f"Draw a new number in the timer's callback, each time: {draw}."
         raise Missed("a new temperature in each message", saw, hint)

@@ -9,10 +9,12 @@ from nbgrader.converters import GenerateAssignment
 from nbgrader.preprocessors import InstantiateTests, SaveCells
 from nbgrader.utils import is_grade
 
-from grader.marking.errors import CourseError
+from grader.marking import secret
+from grader.marking.errors import CourseError, NoVariants
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.find_submissions import REMAKE
 from grader.marking.judge import testcells
+from grader.marking.judge.personal_release import NO_SECRET, has_variants
 
 HIDDEN = "### BEGIN HIDDEN TESTS"
 
@@ -28,6 +30,8 @@ def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str
     for path in sorted(course.release(assignment).glob("*.ipynb")):
         notebook = nbformat.read(path, 4)
         testcells.exercise_names(notebook)
+        if has_variants([notebook]) and not secret.read(course.root):
+            raise NoVariants(NO_SECRET.format(assignment))
         cells = [cell.metadata.nbgrader for cell in notebook.cells if is_grade(cell)]
         found |= {(path.stem, cell.grade_id): float(cell.points) for cell in cells}
         source = course.source(assignment) / path.name
@@ -59,8 +63,8 @@ def _released(course: Course, source: Path) -> NotebookNode:
 
 
 def _content(notebook: NotebookNode) -> list[tuple[str, str, Any]]:
-    """Return what must agree in each cell: all but the checksum, which covers the answer or the task."""
+    """Return what must agree in each cell, but for the checksum, which covers the answer or the task."""
     return [
         (cell.cell_type, cell.source, {**cell.metadata.get("nbgrader", {}), "checksum": ""})
         for cell in notebook.cells
-    ]
+    ] + [("variants", "", has_variants([notebook]))]

@@ -94,6 +94,11 @@ class Course:
         """The folder with the pages that compare the submissions."""
         return (self.root / self.directory.autograded_directory).parent / "likeness" / assignment
 
+    def variants(self, student: str, assignment: str) -> Path:
+        """The folder with a student's own release of an assignment with variants."""
+        top = (self.root / self.directory.autograded_directory).parent / "variants"
+        return top / student / assignment
+
     def platform_files(self) -> Path:
         """The folder with what is known of a learning platform's uploads."""
         return (self.root / self.directory.autograded_directory).parent / "platform"

@@ -12,7 +12,7 @@ import functools
 import socket
 
 from grader.marking.build_process.build_request import request_build
-from grader.marking.errors import UnknownTest
+from grader.marking.errors import NoVariants, UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.task import MAX_RESULT_BYTES, receive_order
@@ -51,5 +51,5 @@ def main(sock: socket.socket) -> None:
     with contextlib.suppress(WireError):  # the marker's process has ended
         try:
             marker.send(result=result_text(mark_submission(order.task, order.secret, start_session)))
-        except UnknownTest as reason:
+        except (UnknownTest, NoVariants) as reason:
             marker.send(failed=str(reason))

@@ -10,9 +10,11 @@ from time import monotonic
 
 from nbformat import NotebookNode
 
+from grader.exercise import Exercise
 from grader.marking.errors import Unusable
 from grader.marking.judge.marking_state import MarkingState, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
+from grader.marking.judge.personal_release import drawn_numbers, personal_release
 from grader.marking.judge.plain_tests import PlainTest
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
 from grader.marking.outputs import writable_text
@@ -23,6 +25,13 @@ from grader.marking.task import MarkingTask
 from grader.seeds import secret_of_student
 
 MAX_SUSPICIOUS = 20  # of a notebook that are reported
+
+
+def draw_variants(marking: MarkingState) -> None:
+    """Continue with the student's own release. Raises NoVariants if it can't be drawn."""
+    release = marking.task.release
+    marking.task = replace(marking.task, release=personal_release(release, marking.secret))
+    marking.variants = drawn_numbers(release.notebooks.values(), marking.secret)
 
 
 def rebuild_notebooks(marking: MarkingState) -> None:
@@ -36,8 +45,15 @@ def find_exercises(marking: MarkingState) -> None:
     for name, released in marking.task.release.notebooks.items():
         names = exercise_names(released)
         marking.exercises[name] = {
-            cell: find_exercise(full) if full else PlainTest(cell) for cell, full in names.items()
+            cell: _exercise(marking, full) if full else PlainTest(cell) for cell, full in names.items()
         }
+
+
+def _exercise(marking: MarkingState, name: str) -> Exercise:
+    """The exercise with this full name, in the student's variant."""
+    found = find_exercise(name)
+    number = marking.variants.get(found.name)
+    return found if number is None else found.variant(number)
 
 
 def flag_suspicious_code(marking: MarkingState) -> None:
@@ -72,14 +88,15 @@ def fill_in_missed_tests(marking: MarkingState) -> None:
         results.sort(key=lambda result: order.index(result.cell))
 
 
-STEPS = (rebuild_notebooks, find_exercises, flag_suspicious_code, run_and_judge, fill_in_missed_tests)
+STEPS = (draw_variants, rebuild_notebooks, find_exercises, flag_suspicious_code)
+STEPS += (run_and_judge, fill_in_missed_tests)
 
 
 def mark_submission(task: MarkingTask, secret: str, start_session: StartSession) -> Result:
     """Mark a submission with worlds and seeds from the secret and the student's name, or run its procedure.
 
-    With the secret "", they are the public ones. Raises UnknownTest for a release that can't be marked here,
-    and nothing else, whatever the submission does.
+    With the secret "", they are the public ones. Raises UnknownTest or NoVariants for a release that can't be
+    marked here, and nothing else, whatever the submission does.
     """
     began = monotonic()
     marking = MarkingState(task, secret_of_student(secret, task.student), start_session)

@@ -23,7 +23,8 @@ class MarkingState:
     """The results of the steps so far.
 
     secret: this student's worlds and seeds are derived from it; "" for the public ones. exercises: those of
-    the test cells, by notebook and grade_id. cells: the results of test cells, by notebook. stops: why a
+    the test cells, by notebook and grade_id. variants: the numbers of the student's, by the exercise's name;
+    only of an assignment with variants. cells: the results of test cells, by notebook. stops: why a
     notebook did not run to its end. errors: those of the course. timings: see Result.
     """
 
@@ -32,6 +33,7 @@ class MarkingState:
     start_session: StartSession
     rebuilt: RebuiltSubmission = field(default_factory=RebuiltSubmission)
     exercises: dict[str, dict[str, Exercise | PlainTest]] = field(default_factory=dict)
+    variants: dict[str, int] = field(default_factory=dict)
     cells: dict[str, list[CellResult]] = field(default_factory=dict)
     displays: DisplayRegistry = field(default_factory=DisplayRegistry)
     flags: list[str] = field(default_factory=list)

@@ -16,6 +16,7 @@ from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry
 from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
+from grader.marking.judge.other_variants import answered_variants
 from grader.marking.judge.plain_tests import PlainTest, read_points
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.judge.testcells import imported_packages, is_test
@@ -175,6 +176,8 @@ class NotebookRun:
         self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
         problems = score_outputs.alarms(score)
         look = [*score_outputs.spoofed_topics(score), *score_outputs.unused_offers(score)]
+        if exercise.name in self._marking.variants:
+            look += answered_variants(exercise, score)
         self._flag(cell, [*problems, *look])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))

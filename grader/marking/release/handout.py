@@ -14,7 +14,10 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import nbformat
+
 from grader.marking.errors import CommandFailed
+from grader.marking.judge.personal_release import has_variants
 from grader.marking.release.make_exercises import differences
 from grader.notebook_format import normalized
 from grader.work_folder import assistant_files, student_files
@@ -30,7 +33,7 @@ MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "self_check.py"),
     *("spreadsheet.py", "lateness.py"),
     *("extras/one_submission", "extras/dask_cluster", "extras/hub", "extras/learning_platform"),
-    *("extras/likeness", "extras/platforms", "extras/receipts"),
+    *("extras/likeness", "extras/platforms", "extras/receipts", "extras/own_notebooks"),
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
@@ -46,13 +49,21 @@ TARGET = re.compile(r"^([a-z]+):", re.M)
 
 def contents(course: Path) -> dict[str, bytes]:
     """Every file of the handout by its path in it, sorted."""
+    varied = tuple(f"exercises/{name}/" for name in assignments_with_variants(course))
     files = [*student_files(course), *_files(course)]
     found = {path.relative_to(course).as_posix(): path for path in files}
-    texts = {name: _content(path) for name, path in found.items() if not _is_excluded(name)}
+    names = [name for name in found if not (_is_excluded(name) or name.startswith(varied))]
+    texts = {name: _content(found[name]) for name in names}
     texts["README.md"] = (course / "course" / "README.md").read_bytes()
     texts |= {path.name: path.read_bytes() for path in assistant_files(course)}
     texts["Makefile"] = makefile((course / "Makefile").read_text(encoding="utf-8")).encode()
     return dict(sorted(texts.items()))
+
+
+def assignments_with_variants(course: Path) -> list[str]:
+    """The assignments that are different for each student, so that no handout has them."""
+    paths = sorted((course / "exercises").glob("*/*.ipynb"))
+    return sorted({path.parent.name for path in paths if has_variants([nbformat.read(path, 4)])})
 
 
 def _files(course: Path) -> Iterator[Path]:
@@ -136,6 +147,8 @@ def main(arguments: list[str] | None = None) -> int:
     files = contents(course)
     write_folder(files, to / NAME)
     digest = write_zip(files, to / f"{NAME}.zip")
+    for name in assignments_with_variants(course):
+        print(f"{name} has variants, so it is left out: `python -m grader variants {name}` writes it.")
     size = (to / f"{NAME}.zip").stat().st_size
     print(f"{to / NAME}/ and {to / NAME}.zip: {len(files)} files, {size / 1e6:.1f} MB, SHA-256 {digest}")
     return 0

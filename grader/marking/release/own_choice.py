@@ -1,8 +1,9 @@
-"""Leaves out exercises of the course and changes points, as class/course.toml says.
+"""Leaves out exercises of the course, changes points and draws variants, as class/course.toml says.
 
     ["01_nodes"]
     leave_out = ["heart", "weather"]
     points = { counter = 10 }
+    variants = true
 
 An exercise is named by its test cell, `heart-points`, without `-points`; it is the section with that cell.
 """
@@ -19,10 +20,11 @@ from nbgrader.utils import is_grade
 from traitlets import Unicode
 
 from grader.marking.errors import CourseError
+from grader.marking.judge.personal_release import tag
+from grader.marking.submission.sections import section_around
 
 FILE = Path("class", "course.toml")
-LEAVE_OUT, POINTS = "leave_out", "points"
-SECTION = "## "
+LEAVE_OUT, POINTS, VARIANTS = "leave_out", "points", "variants"
 NUMBER = re.compile(r"## (\d+)\. ")
 WORTH = re.compile(r"\(\d+(?:\.\d+)? points?\)$", re.M)
 ROW_END = re.compile(r"\| *\d+(?:\.\d+)? *\|$")
@@ -50,8 +52,9 @@ def read_choice(file: Path) -> dict[str, dict[str, Any]]:
     for name, choice in found.items():
         left, points = choice.get(LEAVE_OUT, []), choice.get(POINTS, {})
         numbers = isinstance(points, dict) and all(type(each) in (int, float) for each in points.values())
-        if choice.keys() - {LEAVE_OUT, POINTS} or not isinstance(left, list) or not numbers:
-            expected = f'{LEAVE_OUT} = ["hello"] and {POINTS} = {{ counter = 10 }}'
+        known = isinstance(left, list) and numbers and isinstance(choice.get(VARIANTS, True), bool)
+        if choice.keys() - {LEAVE_OUT, POINTS, VARIANTS} or not known:
+            expected = f'{LEAVE_OUT} = ["hello"], {POINTS} = {{ counter = 10 }} and {VARIANTS} = true'
             raise CourseError(f"{file}: expected lines such as {expected} below [{name!r}], saw {choice}")
     return found
 
@@ -66,28 +69,23 @@ def choose(notebook: NotebookNode, choice: Mapping[str, Any], assignment: str) -
     for name, points in choice.get(POINTS, {}).items():
         test = notebook.cells[tests[name]]
         test.metadata.nbgrader.points = points
-        heading = notebook.cells[_section(notebook, tests[name]).start]
+        heading = notebook.cells[section_around(notebook.cells, tests[name]).start]
         _set_row(notebook, heading, ROW_END, f"| {points:g} |")
         heading.source = WORTH.sub(f"({points:g} points)", heading.source, count=1)
-    sections = {name: _section(notebook, tests[name]) for name in choice.get(LEAVE_OUT, [])}
+    sections = {name: section_around(notebook.cells, tests[name]) for name in choice.get(LEAVE_OUT, [])}
     left = {at for section in sections.values() for at in section}
     if left:
         _check_alone(notebook, sections, left)
     for section in sections.values():
         _set_row(notebook, notebook.cells[section.start], re.compile(r"^.*\n?", re.S), "")
     notebook.cells = [cell for at, cell in enumerate(notebook.cells) if at not in left]
+    if choice.get(VARIANTS):
+        tag(notebook, assignment)
     return notebook
 
 
 def _name(cell: NotebookNode) -> str:
     return cell.metadata.nbgrader.grade_id.removesuffix("-points")
-
-
-def _section(notebook: NotebookNode, test: int) -> range:
-    """The cells from the heading above a test cell to the one below."""
-    heads = [at for at, cell in enumerate(notebook.cells) if cell.source.startswith(SECTION)]
-    start = max((at for at in heads if at <= test), default=0)
-    return range(start, min((at for at in heads if at > test), default=len(notebook.cells)))
 
 
 def _set_row(notebook: NotebookNode, heading: NotebookNode, part: re.Pattern[str], text: str) -> None:

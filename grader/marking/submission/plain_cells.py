@@ -4,6 +4,7 @@ Only the kind, text and names of each cell are read. Outputs, counts, attachment
 metadata are dropped.
 """
 
+import hashlib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -19,6 +20,7 @@ MAX_CELL_CHARS = 1_000_000
 MAX_CHARS = 5_000_000  # of all cells
 DEFINITION = re.compile(r"^(?:(?:class|def|async def) |%%writefile +)(\S[^\s(:]*)", re.MULTILINE)
 MAX_ODDITIES = 5
+MAX_POINTS = 1e6
 KINDS = ("code", "markdown", "raw")
 
 
@@ -37,6 +39,16 @@ class Cell:
     def key(self) -> str:
         """Its text without invisible characters: cells with the same key have the same text."""
         return "\n".join(line.rstrip() for line in self.text.strip().splitlines())
+
+    @property
+    def checksum(self) -> str:
+        """The checksum that nbgrader gives a released cell."""
+        kinds = (str(self.settings.get(key)) for key in ("grade", "solution", "locked"))
+        points = self.settings.get("points")
+        known = isinstance(points, (int, float)) and abs(points) < MAX_POINTS
+        worth = str(float(points)) if known and self.settings.get("grade") else ""
+        text = "".join([self.text, self.kind, *kinds, self.name, worth])
+        return hashlib.md5(text.encode(errors="replace")).hexdigest()
 
     @cached_property
     def lines(self) -> frozenset[str]:

@@ -6,7 +6,7 @@ or test of a submission changes what is run or what it is worth.
 """
 
 import copy
-import hashlib
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
@@ -24,7 +24,7 @@ from grader.marking.submission.submitted_notebooks import read_notebooks
 from grader.notebook_format import cell_ids
 
 ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"
-MAX_POINTS = 1e6
+VARIANT = re.compile(r"\.variant\(\d+\)")  # in the test cells of a student's own release
 SETTINGS = ("points", "grade", "solution", "locked", "task")
 
 
@@ -150,7 +150,8 @@ def _note_fixed(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
         notes.add("test twice", cell.name)
     for other in copies:
         if other.key != cell.key:
-            notes.add("test older" if _as_released(other) else "test edited", cell.name)
+            older = "test of another variant" if _other_variant(other, cell) else "test older"
+            notes.add(older if _as_released(other) else "test edited", cell.name)
         elif other.kind not in (cell.kind, ""):
             notes.add("test of another type", cell.name)
         if other.skipped:
@@ -208,11 +209,11 @@ def _untouched(cell: Cell, starter: Cell) -> bool:
     return cell.key == starter.key or _as_released(cell)
 
 
+def _other_variant(cell: Cell, own: Cell) -> bool:
+    """Return whether a test cell differs in its variant alone from the student's own."""
+    return VARIANT.search(own.key) is not None and VARIANT.sub("", cell.key) == VARIANT.sub("", own.key)
+
+
 def _as_released(cell: Cell) -> bool:
     """Return whether the cell is as in some version of the assignment, by nbgrader's checksum in it."""
-    kinds = (str(cell.settings.get(key)) for key in ("grade", "solution", "locked"))
-    points = cell.settings.get("points")
-    known = isinstance(points, (int, float)) and abs(points) < MAX_POINTS
-    worth = str(float(points)) if known and cell.settings.get("grade") else ""
-    text = "".join([cell.text, cell.kind, *kinds, cell.name, worth])
-    return cell.settings.get("checksum") == hashlib.md5(text.encode(errors="replace")).hexdigest()
+    return bool(cell.settings.get("checksum") == cell.checksum)

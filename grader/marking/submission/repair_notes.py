@@ -48,6 +48,10 @@ REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The test cell {} came from another version of the assignment; the current one was run.",
             "The test cells {} came from another version of the assignment; the current ones were run.",
         ),
+        "test of another variant": (
+            "The test cell {} came from another variant of the task; that of the student's own was run.",
+            "The test cells {} came from other variants of the tasks; those of the student's own were run.",
+        ),
         "code missing": (
             "The cell {} was missing; the one that was handed out was run.",
             "The cells {} were missing; those that were handed out were run.",

@@ -7,6 +7,7 @@ from grader.marking.command.check_release import check_release
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.find_submissions import find_submissions
+from grader.marking.judge.personal_release import NO_SECRET, TAG
 from grader.marking.release.make_exercises import release
 from tests.marking.classroom import ASSIGNMENT, POINTS, WRITTEN, tasks
 
@@ -104,6 +105,20 @@ def test_a_release_that_is_not_what_its_source_gives_is_named(course):
     )
     release(course.root)
     check_release(course, ASSIGNMENT, KNOWN)
+
+
+def test_variants_need_a_secret_and_a_release_that_has_them(course):
+    path = course.release(ASSIGNMENT) / "nodes.ipynb"
+    notebook = nbformat.read(path, 4)
+    notebook.cells[0].metadata["tags"] = [TAG]
+    nbformat.write(notebook, path)
+    assert problem(check_release, course, ASSIGNMENT, KNOWN) == NO_SECRET.format(ASSIGNMENT)
+    file = course.root / ".secret"
+    file.touch(mode=0o600)
+    file.write_text("d1ce")
+    saw = f"exercises/{ASSIGNMENT}/nodes.ipynb is not what solutions/ produces now"
+    message = f"{saw}: {REMAKE}, or undo the changes to solutions/"
+    assert problem(check_release, course, ASSIGNMENT, KNOWN) == message
 
 
 def test_another_answer_in_the_source_is_no_other_release(course):

@@ -144,6 +144,7 @@ def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
         "       python -m grader grades ASSIGNMENT [--help]\n"
         "       python -m grader platform gradescope|... ASSIGNMENT [--help]\n"
         "       python -m grader likeness ASSIGNMENT [--help]\n"
+        "       python -m grader variants ASSIGNMENT [--help]\n"
         "       python -m grader receipts --issuer TEXT [--help]\n"
         "       python -m grader verify RECEIPT [--help]\n"
     )

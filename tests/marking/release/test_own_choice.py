@@ -7,6 +7,7 @@ from grader.marking.command.check_release import check_release
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
+from grader.marking.judge.personal_release import has_variants
 from grader.marking.release.make_exercises import differences, release
 from grader.marking.release.own_choice import choose, read_choice
 from tests.marking.tiny import ROOT, answer, course, grade
@@ -56,6 +57,21 @@ def test_what_other_cells_need_can_t_be_left_out_alone():
     assert len(choose(notebook, {"leave_out": ["one", "two"]}, "x").cells) == 0
 
 
+def test_an_assignment_with_variants_has_a_tag_and_nothing_else_changes():
+    before, after, off = nodes(), nodes(variants=True), nodes(variants=False)
+    assert (off, has_variants([off]), has_variants([after])) == (before, False, True)
+    after.cells[0].metadata.pop("tags")
+    assert after == before
+
+
+def test_variants_are_refused_where_there_are_none():
+    path = ROOT / "solutions" / "13_delivery" / "delivery.ipynb"
+    with pytest.raises(CourseError) as refused:
+        choose(nbformat.read(path, 4), {"variants": True}, "13_delivery")
+    why = "13_delivery has no exercise with variants: leave out `variants = true` in class/course.toml"
+    assert str(refused.value) == why
+
+
 @pytest.mark.parametrize("choice", [{"leave_out": ["hallo"]}, {"points": {"hallo": 3}}])
 def test_an_exercise_that_isn_t_there_is_named(choice):
     with pytest.raises(CourseError) as refused:
@@ -70,13 +86,14 @@ def test_an_exercise_that_isn_t_there_is_named(choice):
         ("[a]\nleave = []", "{'leave': []}"),
         ("[a]\nleave_out = 'b'", "{'leave_out': 'b'}"),
         ("[a]\npoints = {b = 'c'}", "{'points': {'b': 'c'}}"),
+        ("[a]\nvariants = 'b'", "{'variants': 'b'}"),
     ],
 )
 def test_a_file_with_other_lines_is_refused(tmp_path, text, saw):
     (tmp_path / "course.toml").write_text(text)
     with pytest.raises(CourseError) as refused:
         read_choice(tmp_path / "course.toml")
-    lines = 'leave_out = ["hello"] and points = { counter = 10 }'
+    lines = 'leave_out = ["hello"], points = { counter = 10 } and variants = true'
     expected = f"expected lines such as {lines} below ['a'], saw {saw}"
     assert str(refused.value) == f"{tmp_path}/course.toml: {expected}"
 

@@ -15,6 +15,7 @@ from grader.exercises.sensing.bearing.camera import Format, camera
 from grader.exercises.sensing.bearing.image import bearing_of, column_of_red, is_red, pixels_of
 from grader.geometry.near import is_near
 from grader.responses import Stimuli, Stimulus
+from grader.variants import Variants
 from sim.evidence import Recording
 from sim.network import Network
 
@@ -39,8 +40,8 @@ def _seen_by(layout: Format, name: str, seconds: float, seed: int) -> Scenario:
 
 
 bearing = Exercise("bearing", "The bearing of a red post", scenarios=[
-    _seen_by(PLAIN, "rgb8", 6.0, 1), _seen_by(PADDED, "padded", 4.0, 2), _seen_by(BGR, "bgr8", 4.0, 3)])
-images = Stimuli("/image", answered_on="/bearing", within=0.2, what="images")
+    _seen_by(PLAIN, "rgb8", 6.0, 1), _seen_by(PADDED, "padded", 4.0, 2), _seen_by(BGR, "bgr8", 4.0, 3),
+], variants=Variants({"topic": ("/bearing", "/post/bearing", "/direction")}, texts=("{topic}",)))
 
 
 class View(NamedTuple):
@@ -75,7 +76,8 @@ class View(NamedTuple):
 def has_its_endpoints(run: Recording) -> None:
     """The node subscribes to /image, and publishes Vector3Stamped messages on /bearing."""
     subscribes(run, "/image", IMAGE)
-    declared(run, "publisher", "/bearing", BEARING, f"a publisher of type {BEARING} on /bearing")
+    topic = bearing.drawn.topic
+    declared(run, "publisher", topic, BEARING, f"a publisher of type {BEARING} on {topic}")
 
 
 def _is_brighter(least: int, red: np.ndarray, *others: np.ndarray) -> np.ndarray:
@@ -218,7 +220,9 @@ def reads_the_encoding(run: Recording) -> None:
 
 def _views(run: Recording) -> list[View]:
     """Each image that had time for an answer. Raises as `publishes` if there is no answer at all."""
-    publishes(run, "/bearing", BEARING)
+    topic = bearing.drawn.topic
+    publishes(run, topic, BEARING)
+    images = Stimuli("/image", answered_on=topic, within=0.2, what="images")
     pixels = [(image, pixels_of(image.value)) for image in images(run, at_least=5)]
     columns = [(image, column_of_red(seen)) for image, seen in pixels]
     return [View(image, None if column is None else bearing_of(column, image.value.width))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import comb
 
+from grader.marking.judge.personal_release import common_release
 from grader.marking.pool import Pool
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
@@ -46,10 +47,10 @@ class EqualRuns:
 def run_in_public_worlds(tasks: Iterable[MarkingTask], jobs: int) -> dict[str, dict[str, Digests]]:
     """Run all submissions in the same worlds; return each exercise's digests by student.
 
-    Private worlds differ for each student, so there no two students' runs are equal. Raises SandboxMissing,
-    SandboxFailed.
+    Private worlds differ for each student, so there no two students' runs are equal. Variants aren't drawn:
+    only the runs count, not their points. Raises SandboxMissing, SandboxFailed.
     """
-    all_tasks = list(tasks)
+    all_tasks = [replace(task, release=common_release(task.release)) for task in tasks]
     progress = ProgressLine(len(all_tasks))
     found = {}
     with Pool(jobs) as pool:

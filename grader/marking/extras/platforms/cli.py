@@ -20,6 +20,7 @@ from grader.marking.extras.platforms.bundle import (
     mode_of,
     write_folder,
 )
+from grader.marking.extras.platforms.common_tests import require_known_variants
 from grader.marking.extras.platforms.gradescope import VISIBILITIES
 from grader.marking.extras.platforms.leaderboard import require_capstone
 
@@ -74,6 +75,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if options.league:
             require_capstone(read_release(Path("exercises", options.assignment)))
+        require_known_variants(Path.cwd(), options.assignment, options.platform, not public)
         files = bundle(Path.cwd(), settings, "" if public else secret.read(Path.cwd()))
         files |= {name: (FILES / name).read_bytes() for name in OWN[options.platform]}
         where = _write(options.platform, files, options.to, settings)

@@ -1,6 +1,6 @@
 """The receipts of a class: of all marks on which gradebook and journal agree."""
 import hmac
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
 
@@ -14,11 +14,13 @@ from grader.marking.extras.receipts.receipt import MarkReceipt, ReceiptCell, sea
 from grader.marking.gradebook.book import Book, GradebookMark
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal, JournalEntry
+from grader.marking.judge.personal_release import drawn_numbers
 from grader.marking.judge.testcells import exercise_names, find_exercise
 from grader.marking.mark_evidence import fingerprint
 from grader.marking.progress_line import printable
 from grader.marking.version import LOCK
 from grader.seeds import secret_of_student
+from grader.variants import revealed_name
 
 MAX_NAME_CHARS = 100
 DIGESTS = ("submission", "release", LOCK)  # in the evidence; the rest are versions
@@ -38,14 +40,14 @@ def make_receipts(course: Course, issuer: str, students: Collection[str], reveal
         marks = [mark for mark in book.marks() if not students or mark.student in students]
     made, key = ClassReceipts(), secret.read(course.root)
     names = {mark.assignment for mark in marks}
-    exercises = {name: dict(_exercises(_notebooks(course, name))) for name in names}
+    released = {name: list(_notebooks(course, name)) for name in names}
     for mark in sorted(marks, key=lambda mark: (mark.student, mark.assignment)):
         entry = Journal(course.journal(mark.assignment)).last(mark.student)
         doubt = _doubt(mark, entry, key)
         if entry is None or doubt:
             made.doubts.append(f"{mark.student}: {mark.assignment} {doubt}")
             continue
-        receipt = sealed(_receipt(mark, entry, issuer), key, exercises[mark.assignment], reveal)
+        receipt = sealed(_receipt(mark, entry, issuer), key, released[mark.assignment], reveal)
         made.receipts.setdefault(mark.student, []).append(receipt)
     return made
 
@@ -56,16 +58,21 @@ def receipt_of_one(
     """The receipt of a mark that no gradebook has. notebooks: the release's. Raises CourseError."""
     if mark.needs_look:
         raise CourseError("there is no receipt of a mark that still needs a look")
-    return sealed(_receipt(mark, entry, issuer), key, dict(_exercises(notebooks)), reveal=False)
+    return sealed(_receipt(mark, entry, issuer), key, list(notebooks), reveal=False)
 
 
-def sealed(receipt: MarkReceipt, key: str, tests: Mapping[str, Exercise], reveal: bool) -> MarkReceipt:
-    """The receipt with the seal of its private seeds, if the class has a secret; with them if `reveal`."""
+def sealed(receipt: MarkReceipt, key: str, notebooks: Sequence[NotebookNode], reveal: bool) -> MarkReceipt:
+    """The receipt with the seal of its private seeds, if the class has a secret; with them if `reveal`.
+
+    notebooks: the release's. The number of a variant, if there are variants, is sealed like a seed.
+    """
     if not key:
         return receipt
     own = secret_of_student(key, receipt.student)
     nonce = hmac.new(own.encode(), f"receipt of {receipt.assignment}".encode(), "sha256").hexdigest()
-    seeds = {name: [seed for _, seed in each.runs(own)] for name, each in tests.items()}
+    seeds = {name: [seed for _, seed in each.runs(own)] for name, each in _exercises(notebooks)}
+    numbers = drawn_numbers(notebooks, own)
+    seeds |= {revealed_name(name): [number] for name, number in numbers.items()}
     opened = {"nonce": nonce, "seeds": seeds} if reveal else {}
     return replace(receipt, seal=seal_of(nonce, seeds), **opened)
 

@@ -1,0 +1,1 @@
+"""python -m grader variants: each student's own notebooks of an assignment with variants."""
