@@ -8,6 +8,7 @@ import rclpy
 from geometry_msgs.msg import PoseWithCovariance, Twist
 from nav_msgs.msg import OccupancyGrid
 from rcl_interfaces.msg import ParameterValue
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Byte, Float64, Int32, String
@@ -446,3 +447,17 @@ class RaisesInItsOwnWords(Talker):
 class MisspellsAFunction(Talker):
     def tick(self):
         return math.sine(1.0)
+
+
+class ForgetsTheState(LifecycleNode):
+    def __init__(self):
+        super().__init__("motor")
+        self.create_timer(0.5, self.trigger_configure)
+
+    def on_configure(self):
+        return TransitionCallbackReturn.SUCCESS
+
+
+class ReturnsNothing(ForgetsTheState):
+    def on_configure(self, state):
+        self.ready = True

@@ -34,6 +34,10 @@ ADVICE = {
     mistakes.NamesAProperty: "A NamesAProperty already has a property `publishers`, which can't be set: choose another "
     "name, such as `my_publishers`.",
     mistakes.SetsBeyondTheLast: "The list has no item with that number: the first is number 0, the last is len(...) - 1.",
+    mistakes.ForgetsTheState: "A transition's method is called with the state before it: write "
+    "`def on_configure(self, state):`.",
+    mistakes.ReturnsNothing: "A transition's method, such as on_configure, ends with `return "
+    "TransitionCallbackReturn.SUCCESS` or FAILURE, whichever way it takes.",
     mistakes.RaisesInItsOwnWords: "",
     mistakes.MisspellsAFunction: "",
     mistakes.UnknownFieldInConstructor: "This message has no field `text`. `get_fields_and_field_types()` of its "

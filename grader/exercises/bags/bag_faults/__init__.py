@@ -178,7 +178,8 @@ def _moving(run: Recording, *, drives: bool) -> list[Seconds]:
     for row in run.messages("/odom"):
         if row.from_course:
             twist = row.message.twist.twist
-            if abs(twist.linear.x) > MOVING or (not drives and abs(twist.angular.z) > MOVING):
+            speeds = [twist.linear.x] if drives else [twist.linear.x, twist.angular.z]
+            if not all(is_near(speed, 0.0, MOVING) for speed in speeds):
                 found.append(since_start(row.message.header.stamp))
     return found
 

@@ -142,7 +142,7 @@ def _in_a_turn(tracks: list[Track]) -> list[Track]:
 
 def _jumps(track: Track) -> bool:
     """Return whether the wheels' yaw passes from pi to -pi in this drive."""
-    return bool(np.abs(track.stream.wheels[: STEPS + 1]).max() > math.pi)
+    return not np.abs(track.stream.wheels[: STEPS + 1]).max() <= math.pi
 
 
 def _bad_group(tracks: list[Track]) -> str:

@@ -153,10 +153,10 @@ class PathDriver(BlindDriver):
             return 0.0, 0.0
         gaps = [math.dist(pose[:2], point) for point in self.path]
         self.path = self.path[gaps.index(min(gaps)):]
-        point = next((one for one in self.path if math.dist(one, pose[:2]) >= AHEAD), self.path[-1])
+        point = next((one for one in self.path if not math.dist(one, pose[:2]) < AHEAD), self.path[-1])
         ahead, left, _ = relative(pose, Pose2D(*point, 0.0))
         bearing = math.atan2(left, ahead)
-        if abs(bearing) > 1.0:
+        if not abs(bearing) <= 1.0:
             return 0.0, math.copysign(1.2, bearing)
         return SPEED, SPEED * 2 * math.sin(bearing) / math.hypot(ahead, left)
 

@@ -111,7 +111,7 @@ class Candidates(Node):
             cell = random.randrange(len(rows))
             place = float(floor.x[rows[cell], columns[cell]]), float(floor.y[rows[cell], columns[cell]])
             turn = random.uniform(-math.pi, math.pi)
-            if math.dist(place, (x, y)) > APART or abs(math.remainder(turn - yaw, math.tau)) > ASKEW:
+            if not (math.dist(place, (x, y)) <= APART and abs(math.remainder(turn - yaw, math.tau)) <= ASKEW):
                 return (*place, turn)
 
 
