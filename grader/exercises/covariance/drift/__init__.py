@@ -68,7 +68,7 @@ def publishes_odometry(run: Recording) -> list[list[Message]]:
     moments = [since_start(row.message.header.stamp) for row in run.messages("/joint_states")]
     missing = [moment for moment in moments if moment not in found and moment < run.ended.stamp - PERIOD]
     if missing or len(moments) < DRIVES * STEPS:
-        saw = f"none for the one at {missing[0]:.4g} s" if missing else "a run that ended early"
+        saw = f"none for the one at {min([*missing, run.ended.stamp]):.4g} s"
         hint = "Publish in the callback of /joint_states, with header.stamp = msg.header.stamp."
         raise Missed("an Odometry with the stamp of each JointState", saw, hint)
     rows = [found.get(moment, sent[-1]) for moment in moments]

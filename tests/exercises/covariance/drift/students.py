@@ -251,10 +251,11 @@ class GrowsWithEachMessage(WheelOdometry):
 
 
 class GrowsWithTime(WheelOdometry):
-    """As if it always drove with 0.4 m/s."""
+    """As if it always drove with 0.4 m/s, once it has set off."""
 
     def variances(self, left, right):
-        return SLIP**2 * 0.04, SLIP**2 * 0.04
+        has_set_off = left or right or self.P.any()
+        return (SLIP**2 * 0.04 if has_set_off else 0.0,) * 2
 
 
 class Degrees(WheelOdometry):
