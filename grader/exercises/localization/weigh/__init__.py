@@ -8,7 +8,7 @@ import numpy as np
 from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.companions.map_messages import pose_2d
 from grader.exercise import Exercise, Scenario
-from grader.exercises.localization.weigh.candidates import CLUSTER, Guess, guessing, is_close, visited
+from grader.exercises.localization.weigh.guesses import CLUSTER, Guess, guessing, is_close, visited
 from grader.geometry.near import is_near
 from grader.responses import from_course
 from sim.evidence import Message, Recording, Seconds

@@ -71,7 +71,7 @@ def is_close(guess: Guess, truth: Guess) -> bool:
     return math.dist(guess[:2], truth[:2]) < 2 * CLOSE and turn < 2 * TURNED
 
 
-class Candidates(Node):
+class GuessPublisher(Node):
     """Publishes 200 guesses about where the robot is every two seconds: PoseArray on /candidates.
 
     Some are in clusters: around the robot, around where it would be if its lidar were in its middle, a little
@@ -81,7 +81,7 @@ class Candidates(Node):
     world: ClassVar[World]
 
     def __init__(self) -> None:
-        super().__init__("candidates")
+        super().__init__("guess_publisher")
         self.publisher = self.create_publisher(PoseArray, "/candidates", 10)
         self.create_timer(2.0, self.publish)
 
@@ -125,4 +125,4 @@ def _cluster(middle: Guess) -> list[Guess]:
 def guessing(seed: int) -> list[type[Node]]:
     """Return the map server and the guesses for a room, as companions of a run."""
     real, known = visited(seed)
-    return [made_for(MapServer, world=known), made_for(Candidates, world=real)]
+    return [made_for(MapServer, world=known), made_for(GuessPublisher, world=real)]
