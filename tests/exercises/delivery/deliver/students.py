@@ -2,7 +2,10 @@
 
 import math
 
-from geometry_msgs.msg import Twist
+import rclpy
+from geometry_msgs.msg import PoseArray, PoseStamped, Twist
+from nav_msgs.msg import Path
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import BatteryState
@@ -17,6 +20,8 @@ from tests.students.teams import Team
 PARTS = (
     *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
     *("Unsocial", "Close", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight", "Quiet"),
+    *("one_process", "Careless", "Gate", "ByUtility", "Planner", "PathDriver", "OnEachMessage", "Localizer"),
+    *("Watcher", "Smoother", "Gentle", "Everlasting", "Hasty"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -99,6 +104,232 @@ class Clerk(Decision):
 
 
 OneNodePerSkill = Team(Control, Charger, Clerk, Perception)
+
+
+def one_process():
+    """All three nodes in one program, which is killed and comes back as one."""
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    for node in (Perception(), Decision(), Control()):
+        executor.add_node(node)
+    executor.spin()
+
+
+OneProcess = Team(one_process)
+
+
+class Careless(Control):
+    """Leaves people to the gate."""
+
+    away = 0.0
+
+    def create_publisher(self, kind, topic, depth):
+        return super().create_publisher(kind, f"{topic}_raw" if topic == "/cmd_vel" else topic, depth)
+
+
+class Gate(Node):
+    """Between control and the motors: lets a command pass while all it knows is new, and no one is near."""
+
+    def __init__(self):
+        super().__init__("gate")
+        self.command, self.place, self.people, self.seen = Twist(), None, [], [-math.inf] * 3
+        self.create_subscription(Twist, "/cmd_vel_raw", self.on_command, 10)
+        self.create_subscription(PoseStamped, "/robot_pose", self.on_pose, 10)
+        self.create_subscription(PoseArray, "/people", self.on_people, 10)
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.05, self.tick)
+
+    def now(self):
+        return self.get_clock().now().nanoseconds
+
+    def on_command(self, command):
+        self.command, self.seen[0] = command, self.now()
+
+    def on_pose(self, pose):
+        self.place = pose.pose.position.x, pose.pose.position.y
+        self.seen[1] = Time.from_msg(pose.header.stamp).nanoseconds
+
+    def on_people(self, people):
+        self.people = [(pose.position.x, pose.position.y) for pose in people.poses]
+        self.seen[2] = Time.from_msg(people.header.stamp).nanoseconds
+
+    def tick(self):
+        is_new = self.now() - min(self.seen) < 0.5e9
+        is_free = is_new and all(math.dist(self.place, person) > 1.5 for person in self.people)
+        self.publisher.publish(self.command if is_free else Twist())
+
+
+WithAGate = Team(Perception, Decision, Careless, Gate)  # a design of its own
+
+
+class ByUtility(Decision):
+    """Each thing that it could do has a number; it does what has the largest one."""
+
+    def choose(self):
+        charging, empty = self.state == "charge", self.low - self.share
+        offers = [(0.0, "rest", self.dock)]
+        offers.append((5.0 if charging and self.share < self.enough else 60.0 * empty, "charge", self.dock))
+        for order in self.orders.values():
+            if order.status == Order.PICKED_UP:
+                offers.append((9.0, f"deliver {order.id}", order.delivery))
+            elif self.is_worth_it(order):
+                offers.append((3.0 / (1.0 + self.way(order.pickup)), f"fetch {order.id}", order.pickup))
+        return max(offers, key=lambda offer: offer[0])[1:]
+
+
+ChoosesByUtility = Team(Perception, ByUtility, Control)
+
+
+class Planner(Control):
+    """Plans once a second, from wherever the robot is, and drives nothing."""
+
+    def __init__(self):
+        super().__init__()
+        self.destroy_publisher(self.publisher)
+        self.publisher, self.place = self.create_publisher(Path, "/path", 10), None
+
+    def stand(self):
+        pass
+
+    def on_pose(self, message):
+        self.place = message.pose.position.x, message.pose.position.y
+
+    def look_again(self):
+        if self.place is not None and self.goal is not None and self.solid is not None:
+            way = self.plan(self.place)
+            poses = [PoseStamped() for _ in way]
+            for pose, (x, y) in zip(poses, way, strict=True):
+                pose.pose.position.x, pose.pose.position.y = x, y
+            self.publisher.publish(Path(poses=poses))
+
+
+class PathDriver(Control):
+    """Follows the newest path from its nearest point on, and needs no map."""
+
+    def __init__(self):
+        super().__init__()
+        self.solid, self.place = True, None
+        self.create_subscription(Path, "/path", self.on_path, 10)
+
+    def on_map(self, grid):
+        pass
+
+    def look_again(self):
+        pass
+
+    def plan(self, start):
+        return []
+
+    def on_pose(self, message):
+        self.place = message.pose.position.x, message.pose.position.y
+        super().on_pose(message)
+
+    def on_path(self, path):
+        way = [(each.pose.position.x, each.pose.position.y) for each in path.poses]
+        if way and self.place is not None:
+            nearest = min(range(len(way)), key=lambda index: math.dist(way[index], self.place))
+            self.way = way[nearest:]
+        else:
+            self.way = way
+
+
+APlannerOfItsOwn = Team(Perception, Decision, Planner, PathDriver)
+
+
+class OnEachMessage(Decision):
+    """No timer decides, but each message that may change something."""
+
+    def decide(self):
+        if self.get_clock().now().nanoseconds - getattr(self, "decided", 0) > 0.2e9:
+            self.decided = self.get_clock().now().nanoseconds
+            super().decide()
+
+    def on_order(self, order):
+        super().on_order(order)
+        self.decide()
+
+    def on_battery(self, battery):
+        super().on_battery(battery)
+        self.decide()
+
+    def on_pose(self, pose):
+        super().on_pose(pose)
+        self.decide()
+
+
+EventDriven = Team(Perception, OnEachMessage, Control)
+
+
+class Localizer(Perception):
+    """Where it is, from odometry alone, as often as that comes."""
+
+    def on_scan(self, scan):
+        pass
+
+    def on_odom(self, odom):
+        super().on_odom(odom)
+        self.scans += 1
+        if self.map_to_odom is not None and self.scans % 2:
+            x, y, yaw = self.locate()
+            message = PoseStamped()
+            message.header.stamp, message.header.frame_id = odom.header.stamp, "map"
+            message.pose.position.x, message.pose.position.y = x, y
+            message.pose.orientation.z, message.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+            self.pose_pub.publish(message)
+
+
+class Watcher(Perception):
+    """What is near: people and obstacles; where the robot is, others say."""
+
+    def create_publisher(self, kind, topic, depth):
+        return super().create_publisher(kind, "/watcher/pose" if topic == "/robot_pose" else topic, depth)
+
+
+TwoPerceptions = Team(Localizer, Watcher, Decision, Control)
+
+
+class Smoother(Gate):
+    """A gate that speeds up gently, and stops at once."""
+
+    speed = 0.0
+
+    def tick(self):
+        wanted = self.command.linear.x if self.now() - self.seen[0] < 0.3e9 else 0.0
+        self.speed = min(wanted, self.speed + 0.02)
+        command = Twist()
+        command.linear.x, command.angular.z = self.speed, self.command.angular.z if wanted else 0.0
+        if not wanted and self.now() - self.seen[0] < 0.3e9:
+            command.angular.z = self.command.angular.z
+        self.publisher.publish(command)
+
+
+class Gentle(Careless):
+    away = Control.away
+
+
+SpeedsUpGently = Team(Perception, Decision, Gentle, Smoother)
+
+
+class Everlasting(Gate):
+    """A gate that never forgets a command: it repeats the last one while no news comes."""
+
+    def tick(self):
+        is_free = self.place is None or all(math.dist(self.place, person) > 1.5 for person in self.people)
+        self.publisher.publish(self.command if is_free else Twist())
+
+
+class Hasty(Careless):
+    """Says nothing while its news is old."""
+
+    def on_pose(self, message):
+        if Time.from_msg(message.header.stamp).nanoseconds - self.received < 0.5e9:
+            super().on_pose(message)
+
+    def stand(self):
+        pass
+
+
+AGateThatForgetsNothing = Team(Perception, Decision, Hasty, Everlasting)
 
 
 class Chaser(Control):
