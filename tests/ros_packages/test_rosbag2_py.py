@@ -285,7 +285,7 @@ def test_a_bag_in_sqlite_is_refused_with_a_remedy(tmp_path, monkeypatch, capsys,
         assert refused(rosbag2_py.SequentialReader().open, *storage) == sentence
         ros2(f"bag info {path}")
         assert capsys.readouterr().out == (
-            f"{file} is not a bag in SQLite's format, or it is damaged (no such table: messages).\n"
+            f"{file} is not a bag in SQLite's format, or it is damaged (no such table: topics).\n"
         )
 
 
