@@ -29,7 +29,7 @@ from sim.evidence import Seconds
 SCAN = "/scan"
 MOUNT = (0.03, 0.0, 0.0)
 RELIABLE = {"reliability": "reliable", "durability": "volatile", "depth": 10}
-EXTRA = "camera_link", "gps_link"
+EXTRA = "camera_link", "gps_link", "sonar_link", "cliff_link", "dock_link"
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def draw_bag(seed: int, *, begins_late: bool) -> Drawn:
     moments = [first, second] if draw.random() < 0.5 else [second, first]
     silent, hiccup = draw.uniform(0.7, 1.1), draw.uniform(1.5, 2.2)
     return Drawn(
-        every=draw.choice((1, 2, 4)),
+        every=draw.choice((1, 2, 3, 4, 5)),
         silent=(moments[0], moments[0] + silent),
         hiccup=(moments[1], moments[1] + hiccup),
         delay=draw.uniform(0.03, 0.12),
