@@ -5,6 +5,13 @@ from dataclasses import replace
 from sim.evidence import Seconds
 from sim.world import WheelModel, World
 
+SLIP = 0.007  # m: standard deviation of a wheel's distance after 1 m
+
+
+def slippery_floor() -> World:
+    """Return an empty yard in which a robot's wheels slip as in the drives of an exercise."""
+    return replace(World.load("yard"), wheels=WheelModel(slip=SLIP))
+
 
 def slippery(world: World, slip: float = 0.01, left: float = 0.98) -> World:
     """Return the world with wheels that slip; the left one is smaller than the robot believes."""

@@ -66,7 +66,9 @@ def test_a_prediction_can_be_made_without_a_kernel_that_knows_it(students_folder
         lab.cell(0).locator("button", has_text="no").click()
         lab.cell(0).locator("[role=status]", has_text=SAVED).wait_for()
         lab.run_cell(0)
-        assert lab.cell(0).locator("button[aria-pressed=true]").all_inner_texts() == ["b\nno"]
+        chosen = lab.cell(0).locator("button[aria-pressed=true]")
+        chosen.wait_for()
+        assert chosen.all_inner_texts() == ["b\nno"]
         lab.run_cell(1)
         lab.cell(1).locator(".ros2-outcome.right", has_text="That's right.").wait_for()
 

@@ -13,7 +13,9 @@ from tests.exercises.chance import BY_LOT, card_of, earned, for_being_there
 from tests.exercises.more_adversaries import LISTENS_ONCE, MORE_KINDS, hollow, more_adversary
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
+from tests.exercises.test_bags import TestBags as Bags
 from tests.exercises.test_control import TestControl as Control
+from tests.exercises.test_covariance import TestCovariance as Covariance
 from tests.exercises.test_delivery import TestDelivery as Delivery
 from tests.exercises.test_drawing import TestDrawing as Drawing
 from tests.exercises.test_frames import TestFrames as Frames
@@ -21,6 +23,7 @@ from tests.exercises.test_guarding import TestGuarding as Guarding
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_launching import TestLaunching as Launching
 from tests.exercises.test_lifecycle import TestLifecycle as Lifecycle
+from tests.exercises.test_localization import TestLocalization as Localization
 from tests.exercises.test_navigating import TestNavigating as Navigating
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
@@ -37,7 +40,7 @@ from tests.exercises.test_warehouse import TestWarehouse as Warehouse
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
     *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Lifecycle),
-    *(Warehouse, Delivery),
+    *(Warehouse, Delivery, Bags, Covariance, Localization),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),

@@ -2,5 +2,6 @@
 
 from grader.companions.blind_drivers import Circling
 from grader.exercises import notebook_names
+from grader.worlds.slippery import slippery_floor
 
 globals().update(notebook_names(__name__))

@@ -99,6 +99,11 @@ THERE = {
     "exercises.silence.graph.speakers": (
         "QuestionPublisher Speaker plans speakers", "needs the private seed",
     ),
+    "companions.map_messages": ("pose_2d", "reads a message"),
+    "exercises.localization.localize.scan_matcher": (
+        "composed relative", "given: lesson 14c has them, too",
+    ),
+    "exercises.localization.weigh.guesses": ("is_close", "needs the true pose"),
     "diagnosis.activity": ("_times", "words of a hint"),
     "diagnosis.driving": ("VelocityCommand _command_text", "words of a hint"),
     "geometry.floor": ("away_from points_of", "given: lesson 13 has them, too"),

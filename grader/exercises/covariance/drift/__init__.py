@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -26,15 +25,12 @@ from grader.exercises.covariance.drift.short_drives import (
     DRIVES,
     PERIOD,
     SECONDS,
-    SLIP,
     STEPS,
     drives,
     encoders,
 )
 from grader.geometry.near import is_near
-from sim import World
 from sim.evidence import Message, Recording, since_start
-from sim.world import WheelModel
 
 TOPIC = "/wheel_odom"
 SAME, NEAR = 1e-3, 5e-3  # relative; m and rad
@@ -46,12 +42,7 @@ DEGREES = math.degrees(1.0) ** 2
 
 drift = Exercise("drift", "Odometry that knows how far it may be off", seconds=SECONDS, companions=encoders)
 
-__all__ = ["drift", "encoders", "slippery_floor"]
-
-
-def slippery_floor() -> World:
-    """An empty yard in which a robot's wheels slip as in the drives."""
-    return replace(World.load("yard"), wheels=WheelModel(slip=SLIP))
+__all__ = ["drift", "encoders"]
 
 
 @drift.check(1)

@@ -10,12 +10,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 
 from grader.companions.tape import Row, Tape
+from grader.worlds.slippery import SLIP
 from sim.world.robot import RobotModel
 
 WITH_JUDGE = True
 
 DRIVES, STEPS, PERIOD = 50, 48, 0.1  # s between two messages
-SLIP = 0.007  # m: standard deviation of a wheel's distance after 1 m
 RADIUS, TRACK = RobotModel.wheel_radius, RobotModel.track_width
 PAUSE = 4  # ticks from a reset to the first message after it
 TICKS = PAUSE + STEPS + 2  # of a drive

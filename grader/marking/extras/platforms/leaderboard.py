@@ -44,7 +44,7 @@ def require_capstone(release: Release) -> None:
         raise CourseError(str(error).rstrip(".")) from None
     if not last or last[-1].rpartition(".")[2] != CAPSTONE:
         raise CourseError(
-            f"--league needs an assignment that ends with the exercise `{CAPSTONE}`, such as 13_delivery; "
+            f"--league needs an assignment that ends with the exercise `{CAPSTONE}`, such as 13b_delivery; "
             f"leave it out for {release.assignment}"
         )
 

@@ -101,7 +101,7 @@ def judged(course: Path, monkeypatch) -> dict:  # noqa: F811
     root.mkdir()
     (root / "submission_metadata.json").write_text(json.dumps(METADATA))
     monkeypatch.setattr(run, "_mark_one", lambda words: _write(Path(words[words.index("--out") + 1])))
-    settings = PlatformSettings("13_delivery", league=True)
+    settings = PlatformSettings("13b_delivery", league=True)
     assert run.execute(run.run_gradescope(settings, root), settings) == 0
     return json.loads((root / "results" / "results.json").read_text())
 
@@ -121,7 +121,7 @@ def test_the_row_is_in_the_results(course, monkeypatch):  # noqa: F811
     monkeypatch.setattr(leaderboard, "columns_and_note", play)
     assert judged(course, monkeypatch)["leaderboard"] == COLUMNS
     submission, release, how = got[0]
-    assert (submission, release) == (course / "autograder/submission", course / "release/13_delivery")
+    assert (submission, release) == (course / "autograder/submission", course / "release/13b_delivery")
     assert how == LeagueSettings(480.0, "the secret of this class")
 
 
@@ -138,16 +138,16 @@ def test_a_bundle_with_a_league_has_its_code_and_others_have_not(course):  # noq
     needed = {f"{folder}{name}.py" for name in ("contest", "contest_procedure", "contest_run", "standings")}
     plain = bundle(course, PlatformSettings("02_topics"), "")
     assert not [name for name in plain if name.startswith(folder)]
-    assert needed < set(bundle(course, PlatformSettings("13_delivery", league=True), ""))
+    assert needed < set(bundle(course, PlatformSettings("13b_delivery", league=True), ""))
 
 
 def test_an_assignment_without_a_whole_robot_has_no_league(course, capsys):  # noqa: F811
     assert main(["platform", "gradescope", "02_topics", "--league"]) == 1
     assert capsys.readouterr().err == (
         "No autograder: --league needs an assignment that ends with the exercise `deliver`, such as "
-        "13_delivery; leave it out for 02_topics.\n"
+        "13b_delivery; leave it out for 02_topics.\n"
     )
-    leaderboard.require_capstone(load_release(ROOT / "exercises" / "13_delivery"))
+    leaderboard.require_capstone(load_release(ROOT / "exercises" / "13b_delivery"))
     empty = replace(load_release(ROOT / "exercises" / "02_topics"), notebooks={})
     with pytest.raises(CourseError, match="leave it out for 02_topics"):
         leaderboard.require_capstone(empty)
@@ -155,7 +155,7 @@ def test_an_assignment_without_a_whole_robot_has_no_league(course, capsys):  # n
 
 def test_only_gradescope_has_a_leaderboard(course, capsys):  # noqa: F811
     with pytest.raises(SystemExit) as end:
-        main(["platform", "prairielearn", "13_delivery", "--league"])
+        main(["platform", "prairielearn", "13b_delivery", "--league"])
     assert end.value.code == 2
     assert capsys.readouterr().err.endswith(
         "error: prairielearn has no leaderboard, which --league is for: leave it out\n"
