@@ -167,7 +167,7 @@ class RateOfTheDataSheet(Report):
         return 20.0
 
 
-class AlwaysFourTransforms(Report):
+class AlwaysSevenTransforms(Report):
     def values(self):
         return super().values() | {"static_transforms": 7}
 
