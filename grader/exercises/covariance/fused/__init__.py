@@ -32,6 +32,7 @@ SCORE = -1.1  # the mean log score that an honest and useful estimate stays belo
 FAR = 0.3  # rad: an error (RMS) that no noise explains
 HUGE = 0.1  # a mean squared error in units of the variance below this is next to nothing
 TINY = 1e-6  # rad
+VARIES = 2.0  # the largest of the 24 variances over the smallest is above this; the right designs have 9
 DEGREES = math.degrees(1.0) ** 2
 
 fused = Exercise("fused", "Wheels and gyro, fused", scenarios=[
@@ -110,10 +111,11 @@ def _row(odom: object) -> tuple[float, float, float]:
 def goes_on(run: Recording, tracks: list[Track]) -> None:
     """While one sensor is silent for up to 2 s, the estimates continue with the other."""
     for number, track in enumerate(tracks, 1):
-        pauses = np.diff(np.array([*track.stamps[track.stamps >= 0.0]]))
-        longest = int(np.argmax(pauses)) if len(pauses) else 0
-        if not len(pauses) or pauses[longest] > PAUSE:
-            pause, since = pauses[longest], track.begin + track.stamps[longest]
+        stamps = np.maximum(track.stamps, 0.0)  # a drive lasts longer than PAUSE, so there are two or more
+        pauses = np.diff(stamps)
+        longest = int(np.argmax(pauses))
+        if not pauses[longest] <= PAUSE:
+            pause, since = pauses[longest], track.begin + stamps[longest]
             hint = (f"In this drive the {'gyro is' if track.stream.silent == 'gyro' else 'wheels are'} "
                     "silent for a while. Process whatever has arrived from the other sensor, and publish.")
             saw = f"none for {pause:.3g} s, after {since:.4g} s, in drive {number}"
@@ -240,3 +242,10 @@ def is_sharp(run: Recording, tracks: list[Track]) -> None:
                 "with gaps.")
         expected = f"-log of the density at the true yaw: {SCORE:g} or less, on average"
         raise Missed(expected, f"{own:.3f}", hint)
+    variances = [track.variance() for track in tracks]
+    if not max(variances) >= VARIES * min(variances):
+        hint = ("One number fits no drive: after one with rests the yaw is known much better than after one "
+                "in which the gyro was silent. Publish the variance that the filter calculates: P[0, 0].")
+        expected = f"variances that differ by a factor of {VARIES:g} or more"
+        saw = f"{min(variances):.3g} to {max(variances):.3g} after all {STREAMS} drives"
+        raise Missed(expected, saw, hint)

@@ -467,3 +467,23 @@ class StampOfNow(Fusion):
 
 class AnotherTopic(Fusion):
     topic = "/odom_filtered"
+
+
+class TunedConstant(Fusion):
+    """A variance that is right on average, whatever has happened in a drive."""
+
+    def variance(self):
+        return 0.004
+
+
+class BeginsLate(Fusion):
+    """Reports where it starts, and then nothing for 60 measurements."""
+
+    def reset(self):
+        super().reset()
+        self.count = 0
+
+    def publish(self, stamp):
+        self.count += 1
+        if self.count == 1 or self.count > 60:
+            super().publish(stamp)
