@@ -10,6 +10,7 @@ from pathlib import Path
 from sim.evidence.rows import INFRASTRUCTURE_TOPICS, Seconds
 from sim.evidence.run_data import RunData
 from sim.nanoseconds import SECOND
+from sim.ros.bags.bag_error import BagError
 from sim.ros.bags.bag_files import BagWriter
 
 
@@ -24,18 +25,23 @@ def save_bag(
 ) -> str:
     """Write messages of a run into a folder, in place of an earlier bag; returns it.
 
-    topics: which to write; all but ROS's own without them. delay: how long messages of the robot are on the
+    topics: which to write; without them all but ROS's own. delay: how long messages of the robot are on the
     way (s), more or less `jitter`. begin: when the recording begins (s): earlier messages are missing, and
     what was latched earlier, too. Raises BagError if the folder can't be made, or if there is no message.
     """
-    if Path(folder, "metadata.yaml").is_file():
-        shutil.rmtree(folder)  # an earlier bag; BagWriter refuses any other folder
     chance, rows = random.Random(1), []
     for row in recording.published:
         late = max(0.0, delay + chance.uniform(-jitter, jitter)) if row.from_course else 0.0
         if (not topics or row.topic in topics) and row.topic not in INFRASTRUCTURE_TOPICS:
             rows.append((row.stamp + late, row))
     rows = [(received, row) for received, row in rows if received >= begin]
+    if not rows:
+        there = ", ".join(sorted({row.topic for row in recording.published} - INFRASTRUCTURE_TOPICS))
+        raise BagError(
+            f"No message to write from {begin:g} s on; topics with messages in this run: {there or 'none'}."
+        )
+    if Path(folder, "metadata.yaml").is_file():
+        shutil.rmtree(folder)  # an earlier bag; BagWriter refuses any other folder
     qos = {end.name: end.qos for end in recording.graph.publishers()}
     with BagWriter(Path(folder)) as writer:
         for received, row in sorted(rows, key=lambda pair: pair[0]):

@@ -224,3 +224,15 @@ def test_topics_of_types_that_are_not_installed_are_left_out_and_logged():
     with sqlite3.connect(bag / f"{bag.name}.db3") as base:
         base.execute("UPDATE topics SET type = 'my_robot/msg/Secret'")
     assert refused(bag).startswith(f"Bag {bag} has no message that can be played (/name: my_robot/msg/Secr")
+
+
+def test_a_bag_without_messages_is_not_written_and_an_earlier_one_stays(talk):
+    bag = Bag(Path(talk.save_bag("talk")))
+    before = bag.contents.counts.total()
+    for choice, begin in (({"topics": ["/txt"]}, "0"), ({"begin": 100.0}, "100")):
+        with pytest.raises(BagError) as refused:
+            talk.save_bag("talk", **choice)
+        assert str(refused.value) == (
+            f"No message to write from {begin} s on; topics with messages in this run: /name, /pose, /text."
+        )
+    assert bag.contents.counts.total() == before
