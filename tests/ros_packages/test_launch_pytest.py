@@ -450,3 +450,13 @@ def test_a_test_that_imports_launch_testing_gets_the_sentence_of_a_run(tmp_path,
     heading = re.escape(" What to do ")
     found = re.findall(rf"^-+{heading}-+\n(.*)$", out, re.MULTILINE)
     assert found == [explain(name.partition(".")[0])] * 2
+
+
+def test_files_that_last_failed_skips_are_skipped(tmp_path):
+    (tmp_path / "test_failing.py").write_text("def test_it():\n    assert False\n")
+    (tmp_path / "test_passing.py").write_text("def test_it():\n    pass\n")
+    command = [sys.executable, "-m", "pytest", *OPTIONS[:2], *PLUGIN, "."]
+    for options in ([], ["--last-failed"]):
+        done = subprocess.run([*command, *options], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 1, done.stdout
+    assert "1 failed in" in done.stdout

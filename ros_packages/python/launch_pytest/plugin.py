@@ -70,7 +70,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
     """Advise where a file with tests imports launch_testing."""
     report = yield
-    return _advise(report, report.call)
+    return _advise(report, getattr(report, "call", None))  # --last-failed skips files without a call
 
 
 @pytest.hookimpl(wrapper=True)

@@ -7,7 +7,7 @@ import pytest
 from grader.exercises.launching.keeper.crates import INTERFACES
 from grader.workspace import judge_types
 from grader.workspace.building import Built, build
-from grader.workspace.interfaces import package_name, type_hash
+from grader.workspace.interfaces import MODULES, package_name, type_hash
 from grader.workspace.package import make_package, with_interfaces
 from grader.workspace.package_xml import CMAKE
 from sim.ros.remote.validation import ProtocolError, valid_interface
@@ -85,14 +85,29 @@ def test_a_package_of_interfaces_that_can_not_be_built_is_judged_by_its_sources(
     assert found.built.problem == "No."
 
 
+@pytest.fixture
+def without_types(monkeypatch):
+    """A process that hasn't got the course's types yet, whatever ran in it before."""
+    provided = [str(folder / MODULES) for folder in judge_types._provided.values()]
+    monkeypatch.setattr(judge_types, "_provided", {})
+    monkeypatch.setattr(sys, "path", [folder for folder in sys.path if folder not in provided])
+    for name in [name for name in sys.modules if name.partition(".")[0] == "crate_interfaces"]:
+        monkeypatch.delitem(sys.modules, name)
+    valid_interface.cache_clear()
+    yield
+    valid_interface.cache_clear()
+    for name in [name for name in sys.modules if name.partition(".")[0] == "crate_interfaces"]:
+        del sys.modules[name]
+
+
+@pytest.mark.usefixtures("without_types")
 def test_types_that_the_course_can_not_build_are_a_mistake_of_the_course():
     with pytest.raises(RuntimeError, match=r"^The course's own crate_interfaces can't be built: No\.\nmore$"):
         judge_types.provide(INTERFACES, lambda _: Built(problem="No.", output="more"))
 
 
-def test_a_judge_decodes_with_types_of_its_own(monkeypatch):
-    monkeypatch.setattr(sys, "path", list(sys.path))
-    monkeypatch.setattr(judge_types, "_provided", {})
+@pytest.mark.usefixtures("without_types")
+def test_a_judge_decodes_with_types_of_its_own():
     with pytest.raises(
         ProtocolError, match=r"^the type crate_interfaces/msg/Crate, which is not installed here$"
     ):
@@ -101,9 +116,4 @@ def test_a_judge_decodes_with_types_of_its_own(monkeypatch):
     for _ in range(2):
         judge_types.provide(INTERFACES, lambda sources: builds.append(1) or build(sources))
     assert len(builds) == 1
-    try:
-        assert valid_interface("crate_interfaces/msg/Crate", "msg")(label="oak").label == "oak"
-    finally:
-        valid_interface.cache_clear()
-        for name in [name for name in sys.modules if name.startswith("crate_interfaces")]:
-            del sys.modules[name]
+    assert valid_interface("crate_interfaces/msg/Crate", "msg")(label="oak").label == "oak"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,22 +15,26 @@ from grader.exercises.covariance.fused.robot_streams import (
     SECONDS,
     STEPS,
     STREAMS,
-    RobotStream,
     robots,
     streams,
+)
+from grader.exercises.covariance.fused.tracks import (
+    BETTER,
+    Track,
+    bad_group,
+    gyro_error,
+    rms,
+    silent,
+    wheels_error,
 )
 from sim.evidence import Recording, Seconds, since_start
 
 TOPIC = "/odometry/filtered"
 PAUSE = 0.75  # s between the stamps of two estimates
-NEAR = 0.25  # s between the end, where the robot stands still, and the stamp of an estimate
 WARM = 1.0  # s from a drive's start in which no estimate is due
-BETTER = 0.75  # the error over that of the better sensor alone
 BOUNDS = 12.401 / STREAMS, 39.364 / STREAMS  # 95 % of the sets of 24 honest estimates are between these
 SCORE = -1.1  # the mean log score that an honest and useful estimate stays below, measured
-FAR = 0.3  # rad: an error (RMS) that no noise explains
 HUGE = 0.1  # a mean squared error in units of the variance below this is next to nothing
-TINY = 1e-6  # rad
 VARIES = 2.0  # the largest of the 24 variances over the smallest is above this; the right designs have 9
 DEGREES = math.degrees(1.0) ** 2
 
@@ -40,32 +43,6 @@ fused = Exercise("fused", "Wheels and gyro, fused", scenarios=[
 ])  # fmt: skip
 
 __all__ = ["fused", "robots"]
-
-
-class Track(NamedTuple):
-    """The estimates for one drive: seconds since its start, yaws (rad), and their variances (rad²)."""
-
-    stream: RobotStream
-    begin: Seconds
-    stamps: np.ndarray
-    yaws: np.ndarray
-    variances: np.ndarray
-
-    def at(self, tick: int) -> int | None:
-        """The index of the last estimate for a tick; None if there is none."""
-        if not len(self.stamps):
-            return None
-        index = len(self.stamps) - 1 - int(np.argmin(np.abs(self.stamps - tick * PERIOD)[::-1]))
-        return index if abs(self.stamps[index] - tick * PERIOD) <= NEAR else None
-
-    def error(self, tick: int = STEPS) -> float:
-        """The error of the yaw (rad) at a tick at which there is an estimate; NaN for no number."""
-        off = self.yaws[self.at(tick)] - self.stream.yaws[tick]
-        return math.remainder(off, math.tau) if math.isfinite(off) else math.nan
-
-    def variance(self, tick: int = STEPS) -> float:
-        """The variance at a tick at which there is an estimate."""
-        return float(self.variances[self.at(tick)])
 
 
 @fused.check(2, lasts=True)
@@ -122,76 +99,33 @@ def goes_on(run: Recording, tracks: list[Track]) -> None:
             raise Missed(f"estimates whose stamps are at most {PAUSE:g} s apart", saw, hint, picture="topics")
 
 
-def _rms(errors: list[float]) -> float:
-    return math.sqrt(float(np.mean(np.square(errors))))
-
-
-def _wheels(track: Track) -> float:
-    return math.remainder(track.stream.wheels[STEPS] - track.stream.yaws[STEPS], math.tau)
-
-
-def _gyro(track: Track) -> float:
-    return float(track.stream.gyro[1 : STEPS + 1].sum()) * PERIOD - track.stream.yaws[STEPS]
-
-
-def _only(tracks: list[Track], silent: str) -> list[Track]:
-    return [track for track in tracks if track.stream.silent == silent]
-
-
-def _in_a_turn(tracks: list[Track]) -> list[Track]:
-    return [track for track in tracks if track.stream.speeds[0] > 0.1]
-
-
-def _jumps(track: Track) -> bool:
-    """Return whether the wheels' yaw passes from pi to -pi in this drive."""
-    return not np.abs(track.stream.wheels[: STEPS + 1]).max() <= math.pi
-
-
-def _bad_group(tracks: list[Track]) -> str:
-    """The drives that explain a large error, because it is small in all others: turn, gyro, pi or ""."""
-    groups = {
-        "turn": _in_a_turn(tracks),
-        "gyro": _only(tracks, "gyro"),
-        "pi": [track for track in tracks if _jumps(track)],
-    }
-    limit, found = BETTER * _rms([_wheels(track) for track in tracks]), {"": 0.0}
-    for name, chosen in groups.items():
-        rest = [track for track in tracks if not any(track is one for one in chosen)]
-        if not chosen or not rest:
-            continue
-        good, bad = (_rms([track.error() for track in part]) for part in (rest, chosen))
-        if good < limit and bad > FAR:
-            found[name] = bad / max(good, TINY)
-    return max(found, key=lambda name: found[name])
-
-
 @fused.check(4, after=publishes_estimates, hints={
     "{value} is no number: did you divide by a time step of 0, or invert a variance of 0?":
         lambda run, tracks: (bad := [yaw for each in tracks for yaw in each.yaws if not math.isfinite(yaw)])
         and {"value": bad[0]},
     "That is what the wheels alone give: the gyro has next to no influence.":
-        lambda run, tracks: _rms([track.error() - _wheels(track) for track in tracks]) < 0.09,
+        lambda run, tracks: rms([track.error() - wheels_error(track) for track in tracks]) < 0.09,
     "That is what the gyro alone gives: its bias stays in. Let the wheels correct it: where the gyro reports "
     "a turn and the wheels don't, the difference is bias.":
-        lambda run, tracks: _rms([math.remainder(track.error() - _gyro(track), math.tau)
-                                  for track in _only(tracks, "")]) < 0.03,
+        lambda run, tracks: rms([math.remainder(track.error() - gyro_error(track), math.tau)
+                                  for track in silent(tracks, "")]) < 0.03,
     "The drives in which the yaw passes pi are far worse than the others: wrap the innovation, "
     "math.remainder(z - predicted, math.tau).":
-        lambda run, tracks: _bad_group(tracks) == "pi",
+        lambda run, tracks: bad_group(tracks) == "pi",
     "The drives that begin in a turn are far worse than the others: a mean of the first readings is the bias "
     "only if the robot stands still. The filter learns it from the difference to the wheels.":
-        lambda run, tracks: _bad_group(tracks) == "turn",
+        lambda run, tracks: bad_group(tracks) == "turn",
     "The drives in which the gyro is silent are far worse than the others. Without the gyro the yaw is "
     "unknown: predict up to each message of the wheels as well, and let the yaw's variance "
     "grow by (1 rad/s * dt)**2.":
-        lambda run, tracks: _bad_group(tracks) == "gyro",
+        lambda run, tracks: bad_group(tracks) == "gyro",
     "It is worse than the better sensor alone, so something is added up wrongly. Is each dt the difference "
     "of two header stamps, and are the measurements processed in the order of their stamps?": otherwise,
 })
 def beats_both(run: Recording, tracks: list[Track]) -> list[Track]:
     """At the end of the drives the yaw is clearly better than from the wheels or the gyro alone."""
-    own = _rms([track.error() for track in tracks])
-    wheels, gyro = (_rms([alone(track) for track in tracks]) for alone in (_wheels, _gyro))
+    own = rms([track.error() for track in tracks])
+    wheels, gyro = (rms([alone(track) for track in tracks]) for alone in (wheels_error, gyro_error))
     if not own <= BETTER * min(wheels, gyro):
         expected = f"an error of {BETTER * min(wheels, gyro):.3f} rad or less (RMS of {STREAMS} drives)"
         saw = f"{own:.3f} rad; the wheels alone have {wheels:.3f}, and the gyro alone {gyro:.3f}"
