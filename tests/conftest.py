@@ -34,6 +34,8 @@ IN_LAB = "cells_in_lab", "course", "play_in_lab", "replay_in_lab", "students_lab
 LAB = [f"tests/browser/test_{name}.py" for name in IN_LAB]
 ON_HUB = "browser/test_hub_day", "marking/extras/hub/test_killed_hub", "marking/extras/hub/test_real_hub"
 HUB = [f"tests/{name}.py" for name in ON_HUB]
+# What a class may use besides marking: only CI, `make test ARGS=extras` and runs that name them test it.
+EXTRAS = "tests/marking/extras", "tests/browser/test_hub_day.py", "tests/browser/test_league_page.py"
 
 
 class ByFile(LoadScopeScheduling):
@@ -72,11 +74,21 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeSch
     return ByFile(config, log)
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+@pytest.hookimpl(tryfirst=True)  # before the marks are read that a run selects
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     def place(item: pytest.Item) -> int:
         return next((n for n, folder in enumerate(FIRST) if item.nodeid.startswith(folder)), len(FIRST))
 
     items.sort(key=place)
+    for item in items:
+        if is_extra(item.nodeid, config.args):
+            item.add_marker("extras")
+
+
+def is_extra(nodeid: str, arguments: list[str]) -> bool:
+    """Whether a test is one of a class's extras, and no argument of pytest names such a file or folder."""
+    named = any(place in argument for argument in arguments for place in EXTRAS)
+    return nodeid.startswith(EXTRAS) and not named
 
 
 @functools.cache

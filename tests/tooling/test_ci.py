@@ -7,10 +7,14 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 import yaml
+from _pytest.mark.expression import Expression
+
+from tests.conftest import is_extra
 
 ROOT = Path(__file__).parents[2]
 FILES = (".github/workflows/check.yml", ".gitlab-ci.yml", ".devcontainer/devcontainer.json")
@@ -65,6 +69,43 @@ def test_both_services_run_the_solutions_the_pages_and_everything(file):
         assert command in text
     for kept in ("cache/uv", "cache/ros2-course-interfaces", "requirements.lock"):
         assert kept in text
+
+
+def selected(expression: str) -> list[str]:
+    """The kinds of tests that `-m EXPRESSION` of pytest selects."""
+    kinds = {"plain": set(), "extras": {"extras"}, "soak": {"soak"}, "both": {"extras", "soak"}}
+    asked = Expression.compile(expression)
+
+    def selects(marks: set[str]) -> bool:
+        return asked.evaluate(lambda name, **_: name in marks)
+
+    return [kind for kind, marks in kinds.items() if selects(marks)]
+
+
+def test_the_tests_of_extras_run_in_ci_and_on_request():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    (plain,) = re.findall(r"-m '(.*?)'", settings["tool"]["pytest"]["ini_options"]["addopts"])
+    (in_ci,) = re.findall(r'^which="(.+)"$', (ROOT / ".ci/run").read_text(encoding="utf-8"), re.M)
+    (asked,) = re.findall(r"-m '(.*?)'", (ROOT / "Makefile").read_text(encoding="utf-8"))
+    assert (selected(plain), selected(in_ci), selected(asked)) == (["plain"], ["plain", "extras"], ["extras"])
+
+
+def test_a_run_that_names_extras_tests_them():
+    test = "tests/marking/extras/hub/test_machine.py::test_it"
+    assert is_extra(test, ["tests"]) and is_extra(test, [f"{ROOT}/tests/marking"])
+    assert not is_extra(test, ["tests/marking/extras/hub"])
+    assert not is_extra("tests/marking/test_pool.py::test_it", ["tests"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [("", ""), ("extras", "-m 'extras and not soak' "), ("extras -k hub", "-m 'extras and not soak' -k hub"),
+     ("-m 'not soak'", "-m 'not soak'")],
+)  # fmt: skip
+def test_make_test_hands_its_arguments_to_pytest(arguments, words):
+    make = ["make", "--dry-run", "--old-file=tools", "test", f"ARGS={arguments}"]
+    done = subprocess.run(make, cwd=ROOT, check=True, capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1].endswith(f" --dist loadfile {words}")
 
 
 def test_the_container_is_made_of_one_file_and_takes_only_what_it_names():
