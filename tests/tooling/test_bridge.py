@@ -79,6 +79,15 @@ SHOWN = {
         "(4.4, 5.7) in map",
         "/odom | Type: nav_msgs/msg/Odometry | Count: 201",
     ),
+    "12_mapping": (
+        "clipped at 6.0: 15 scans",
+        "clipped at inf: 1275 scans",
+        "row 28 column 74 number 5394",
+        "where it drove: {'free'}",
+        "equal: True",
+        "0.196 {-1: ",
+        "0.25 {0: ",
+    ),
 }
 PREDICTION = re.compile(r" = predict\(|\.outcome\(")
 RUNS = [name if name == EVERY_DAY else pytest.param(name, marks=pytest.mark.soak) for name in PAGES]
