@@ -14,6 +14,7 @@ from rclpy.serialization import deserialize_message
 from rosbag2_py import ConverterOptions, SequentialReader, StorageOptions
 from rosidl_runtime_py.utilities import get_message
 
+TOPICS = ("/cmd_vel", "/odom", "/scan")
 STILL = 0.02  # m/s: slower than this is standing
 QUIET = 0.5  # s without another command to drive, so that a zero counts as a stop
 RELIABILITIES = {1: "reliable", 2: "best_effort"}
@@ -72,7 +73,7 @@ def read(bag: str | Path) -> Drive:
     while reader.has_next():
         topic, raw, nanoseconds = reader.read_next()
         first = nanoseconds if first is None else first
-        if topic in ("/cmd_vel", "/odom", "/scan"):
+        if topic in TOPICS:
             message = deserialize_message(raw, get_message(topics[topic].type))
             _add(drive, topic, message, (nanoseconds - first) / 1e9, nanoseconds / 1e9)
     return drive

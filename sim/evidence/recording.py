@@ -189,7 +189,7 @@ class Recording(RunData):
     def save_bag(
         self,
         folder: str | Path,
-        topics: Sequence[str] = (),
+        topics: str | Sequence[str] = (),
         *,
         delay: Seconds = 0.03,
         jitter: Seconds = 0.005,
@@ -197,9 +197,9 @@ class Recording(RunData):
     ) -> str:
         """Write messages into a folder, in place of an earlier bag, as a laptop records them with `ros2 bag`.
 
-        topics: all but ROS's own by default. delay: how long the robot's messages are on the way (s), more or
-        less `jitter`. begin: when the recording begins (s): earlier messages are missing, and latched ones,
-        too. Returns the folder. Raises BagError if it can't be made.
+        topics: one or several; all but ROS's own by default. delay: how long the robot's messages are on the
+        way (s), more or less `jitter`. begin: when the recording begins (s): earlier messages are missing,
+        and latched ones, too. Returns the folder. Raises BagError if it can't be made.
         """
         from sim.ros.bags.saving import save_bag  # here, for its libraries take a while to import
 

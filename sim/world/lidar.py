@@ -9,6 +9,7 @@ from lidar_rays import ffi, lib
 
 from sim.world.validated_model import Angle, Constraint, Length, Model, at_least, within
 
+NEVER = 1_000_000.0  # s, longer than any run: a transform that is left out
 LidarPose = tuple[float, float, float]  # x, y (m), yaw (rad)
 Interval = tuple[float, float]  # s; begin included, end excluded
 
@@ -27,6 +28,10 @@ class LidarModel(Model):
     `dropouts` is the probability that a ray has no measurement. `x`, `y` (m) and `yaw` (rad) are the pose of
     base_scan in base_link; by default the robot's center, facing forward. `silent` are the intervals [begin,
     end] (s) without scans. A scan is published `latency` (s) after it is measured, with the next sensors.
+
+    The last five are faults, which no message accounts for: how far off its pose in base_link is (m, m, and
+    rad to the left), how far ahead the clock is that stamps its scans (s), and how long after the start the
+    robot publishes its transform (s); NEVER leaves it out.
     """
 
     rays: Annotated[int, within(1, 10_000)] = 360
@@ -39,6 +44,11 @@ class LidarModel(Model):
     yaw: Angle = 0.0
     silent: Annotated[tuple[Interval, ...], Constraint(_INTERVALS, _are_intervals)] = ()
     latency: Annotated[float, at_least(0, "s")] = 0.0
+    x_error: Annotated[float, within(-1, 1, "meters")] = 0.0
+    y_error: Annotated[float, within(-1, 1, "meters")] = 0.0
+    yaw_error: Angle = 0.0
+    clock_offset: Annotated[float, within(-100, 100, "s")] = 0.0
+    transform_delay: Annotated[float, at_least(0, "s")] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -55,13 +65,14 @@ class LidarModel(Model):
         return not any(begin <= time < end for begin, end in self.silent)
 
     def mounted_at(self, robot: LidarPose) -> LidarPose:
-        """The lidar's pose for a pose of its robot, in the same frame."""
+        """The lidar's true pose for a pose of its robot, in the same frame."""
         x, y, yaw = robot
         cos, sin = math.cos(yaw), math.sin(yaw)
-        turned = yaw + self.yaw
+        ahead, aside = self.x + self.x_error, self.y + self.y_error
+        turned = yaw + (self.yaw + self.yaw_error)
         if not -math.pi < turned <= math.pi:
             turned = math.remainder(turned, math.tau)
-        return x + cos * self.x - sin * self.y, y + sin * self.x + cos * self.y, turned
+        return x + cos * ahead - sin * aside, y + sin * ahead + cos * aside, turned
 
 
 class Scan(NamedTuple):

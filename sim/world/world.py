@@ -95,7 +95,8 @@ class World(Model):
             location = getattr(self, key)
             if location and not self._contains(location):
                 self.reject(key)
-        if math.hypot(self.lidar.x, self.lidar.y) > self.robot.radius:  # it would measure through walls
+        x, y, _ = self.lidar.mounted_at((0.0, 0.0, 0.0))
+        if math.hypot(x, y) > self.robot.radius:  # it would measure through walls
             self.reject("lidar", f"a lidar on the robot, whose radius is {self.robot.radius:g} m")
         if self.machine:
             self._reject_mobile_fields()

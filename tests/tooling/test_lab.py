@@ -16,7 +16,6 @@ BRIDGE = Path(__file__).parents[2] / "course" / "bridge"
 sys.path.insert(0, str(BRIDGE))  # as the notebooks import what is beside them
 import lab  # noqa: E402
 import lab_report  # noqa: E402
-import simulated_bag  # noqa: E402
 
 YARD = World.load("yard")
 SHOWN = "{} as the bag shows it, within"
@@ -118,7 +117,7 @@ def bag(folder, node, braking=1.0, delay=0.1):
     robot = dataclasses.replace(YARD.robot, max_acceleration=braking, stamped=stamped)
     world = dataclasses.replace(YARD, robot=robot)
     recording = run(node, world=world, seconds=13, network=Network(delay=delay), quiet=True)
-    return simulated_bag.save_bag(recording, str(folder / "my_drive"))
+    return recording.save_bag(folder / "my_drive", lab.TOPICS)
 
 
 def report(folder):
@@ -205,7 +204,7 @@ def test_a_wrong_number_is_named(drive, changed, name, expected, hint):
 
 
 def test_a_recording_without_odometry_is_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(simulated_bag, "TOPICS", ("/cmd_vel", "/scan"))
+    monkeypatch.setattr(lab, "TOPICS", ("/cmd_vel", "/scan"))
     first = lab_report.lab_score(bag(tmp_path, Stops), {}).verdicts[0]
     assert (first.saw, first.hint) == ("none", "Record /odom, too: it shows how fast the robot was.")
 

@@ -17,7 +17,7 @@ from sim.ros.bags.bag_files import BagWriter
 def save_bag(
     recording: RunData,
     folder: str | Path,
-    topics: Sequence[str] = (),
+    topics: str | Sequence[str] = (),
     *,
     delay: Seconds = 0.03,
     jitter: Seconds = 0.005,
@@ -25,14 +25,16 @@ def save_bag(
 ) -> str:
     """Write messages of a run into a folder, in place of an earlier bag; returns it.
 
-    topics: which to write; without them all but ROS's own. delay: how long messages of the robot are on the
-    way (s), more or less `jitter`. begin: when the recording begins (s): earlier messages are missing, and
-    what was latched earlier, too. Raises BagError if the folder can't be made, or if there is no message.
+    topics: which to write, one or several; without them all but ROS's own. delay: how long messages of the
+    robot are on the way (s), more or less `jitter`. begin: when the recording begins (s): earlier messages
+    are missing, and what was latched earlier, too. Raises BagError if the folder can't be made, or if there
+    is no message.
     """
     chance, rows = random.Random(1), []
+    wanted = {topics} if isinstance(topics, str) and topics else set(topics)
     for row in recording.published:
         late = max(0.0, delay + chance.uniform(-jitter, jitter)) if row.from_course else 0.0
-        if (not topics or row.topic in topics) and row.topic not in INFRASTRUCTURE_TOPICS:
+        if (not wanted or row.topic in wanted) and row.topic not in INFRASTRUCTURE_TOPICS:
             rows.append((row.stamp + late, row))
     rows = [(received, row) for received, row in rows if received >= begin]
     if not rows:

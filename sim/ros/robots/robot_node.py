@@ -50,6 +50,7 @@ class Robot(Node):
         self._commands = 0  # since the last sense
         self._scans: deque[tuple[int, bytes]] = deque()  # to be published: time of measurement (ns), ranges
         self._latency = round(world.lidar.latency * SECOND)
+        self._clock_offset = round(world.lidar.clock_offset * SECOND)
         if world.robot.stamped:
             self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)
         else:
@@ -61,7 +62,10 @@ class Robot(Node):
         self.scan_pub = self.create_publisher(LaserScan, "scan", 10)
         self.bumper_pub = self.create_publisher(Bool, "bumper", 10)
         self.static_pub = self.create_publisher(TFMessage, "/tf_static", LATCHED)
-        self.static_pub.publish(self._mounting())
+        if world.lidar.transform_delay:
+            self._mounted_late = self.create_timer(world.lidar.transform_delay, self._publish_mounting)
+        else:
+            self.static_pub.publish(self._mounting())
         self.sense()
         self.create_timer(1.0 / SENSOR_RATE, self.sense)
         imu = world.imu
@@ -74,8 +78,12 @@ class Robot(Node):
             battery.publish()
             self.create_timer(1.0, battery.publish)
 
+    def _publish_mounting(self) -> None:
+        self._mounted_late.cancel()
+        self.static_pub.publish(self._mounting())
+
     def _mounting(self) -> TFMessage:
-        """The transform from the robot to its lidar."""
+        """The transform from the robot to its lidar, as the robot knows it."""
         messages, lidar = self.messages, self.world.lidar
         header = Header(frame_id=messages.base_frame, stamp=self.get_clock().now().to_msg())
         transform = TransformStamped(header=header, child_frame_id=messages.scan_frame)
@@ -115,7 +123,8 @@ class Robot(Node):
             self._scans.append((now, robot.scan().tobytes()))
         while self._scans and self._scans[0][0] + self._latency <= now:
             measured, ranges = self._scans.popleft()
-            self.scan_pub.publish(messages.scan.fill(*divmod(measured, SECOND), ranges))
+            stamp = divmod(measured + self._clock_offset, SECOND)
+            self.scan_pub.publish(messages.scan.fill(*stamp, ranges))
         self.bumper_pub.publish(messages.bumper[bool(robot.bumper)])
 
     def _warn_of_flood(self) -> None:

@@ -226,6 +226,13 @@ def test_topics_of_types_that_are_not_installed_are_left_out_and_logged():
     assert refused(bag).startswith(f"Bag {bag} has no message that can be played (/name: my_robot/msg/Secr")
 
 
+def test_one_topic_may_be_named_without_a_list_and_no_other_is_written(talk):
+    counts = [Bag(Path(talk.save_bag("talk", topics))).contents.counts for topics in ("/text", ["/text"])]
+    assert counts[0] == counts[1] and set(counts[0]) == {"/text"}
+    with pytest.raises(BagError, match=r"^No message to write from 0 s on; topics"):
+        talk.save_bag("talk", "/text/long")
+
+
 def test_a_bag_without_messages_is_not_written_and_an_earlier_one_stays(talk):
     bag = Bag(Path(talk.save_bag("talk")))
     before = bag.contents.counts.total()

@@ -60,6 +60,11 @@ ROUTE = "[[x, y], ...], two or more corners (meters), each different from the on
     (LidarModel, {"yaw": math.inf}, "yaw is inf; write a finite number (radians)."),
     (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
     (LidarModel, {"latency": -1}, "latency is -1; write a number from 0 to 1000000 (s)."),
+    (LidarModel, {"x_error": 2}, "x_error is 2; write a number from -1 to 1 (meters)."),
+    (LidarModel, {"y_error": -2}, "y_error is -2; write a number from -1 to 1 (meters)."),
+    (LidarModel, {"yaw_error": math.nan}, "yaw_error is nan; write a finite number (radians)."),
+    (LidarModel, {"clock_offset": 200}, "clock_offset is 200; write a number from -100 to 100 (s)."),
+    (LidarModel, {"transform_delay": -1}, "transform_delay is -1; write a number from 0 to 1000000 (s)."),
     (LidarModel, {"silent": [[4, 2]]}, "silent is [[4, 2]]; write a list of spans [begin, end] (s)."),
     (WarehouseModel, {"pickups": [[1, 0, 0]], "desk": [0, 0, 0], "withdrawn": [-1]},
      "withdrawn is [-1]; write a list of moments (s), 0 or later."),
@@ -104,6 +109,11 @@ def test_invalid_values(model, parameters, sentence):
         ({"lidar": 3}, "lidar is 3; write a LidarModel."),
         (
             {"lidar": LidarModel(x=0.08, y=-0.08)},
+            "lidar is LidarModel(rays=360, range_min=0.12, range_max=3.5, noise=0.01, dropouts=0.0,...; "
+            "write a lidar on the robot, whose radius is 0.1 m.",
+        ),
+        (
+            {"lidar": LidarModel(x=0.08, y_error=0.08)},
             "lidar is LidarModel(rays=360, range_min=0.12, range_max=3.5, noise=0.01, dropouts=0.0,...; "
             "write a lidar on the robot, whose radius is 0.1 m.",
         ),

@@ -26,7 +26,10 @@ from tests.sim.world.mobile import MOBILE
 from tests.sim.world.paths import has_a_path
 
 IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
-LIDAR = "rays, range_min, range_max, noise, dropouts, x, y, yaw, silent, latency"
+LIDAR = (
+    "rays, range_min, range_max, noise, dropouts, x, y, yaw, silent, latency, "
+    "x_error, y_error, yaw_error, clock_offset, transform_delay"
+)
 GOOD = "bounds = [-3, -3, 3, 3]\nstart = [0, 0, 0]\n" + CARD
 
 
