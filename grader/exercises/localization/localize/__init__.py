@@ -17,13 +17,13 @@ from grader.exercises.localization.localize.scan_matcher import (
 from grader.geometry import Pose2D
 from grader.geometry.near import is_near
 from grader.responses import from_course
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds, since_start
 
 __all__ = ["localize", "matching", "slippery_room"]
 
 POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 SOON: Seconds = 0.045  # after a pose arrives
-TOLERANCE: Seconds = 0.5  # that is added to the stamp
 CLOSE = 0.02  # m, rad
 ARRIVED = 0.3  # m from the goal
 ORIGIN = Pose2D(0.0, 0.0, 0.0)
@@ -36,7 +36,10 @@ def _done(run: Recording) -> bool:
 
 
 localize = Exercise("localize", "From map to odom", world=slippery_room, seconds=45, companions=matching,
-                    until=_done, seeds=(1, 2))
+                    until=_done, seeds=(1, 2), variants=Variants(
+    {"tolerance": (0.5, 0.4, 0.6)},  # s that are added to the stamp
+    texts=("{tolerance} s", "Duration(seconds={tolerance})"),
+))
 
 
 @localize.check(2)
@@ -124,11 +127,12 @@ def corrects_the_odometry(run: Recording, sent: list[Broadcast]) -> list[tuple[M
 @localize.check(2, after=corrects_the_odometry)
 def stamps_it(run: Recording, pairs: list[tuple[Message, Broadcast]]) -> None:
     """The transform's stamp is the pose's plus 0.5 s."""
+    tolerance = localize.drawn.tolerance
     for fix, one in pairs:
-        wanted = since_start(fix.message.header.stamp) + TOLERANCE
+        wanted = since_start(fix.message.header.stamp) + tolerance
         if not is_near(one.measured, wanted, 0.001):
-            hint = ("The correction is for the time of the pose, header.stamp, not for now. Add 0.5 s: "
-                    "(Time.from_msg(stamp) + Duration(seconds=0.5)).to_msg().")
+            hint = (f"The correction is for the time of the pose, header.stamp, not for now. Add {tolerance} s: "
+                    f"(Time.from_msg(stamp) + Duration(seconds={tolerance})).to_msg().")
             raise Missed(f"{wanted:.3f} s", f"{one.measured:.3f} s at {one.stamp:.3g} s", hint)
 
 
