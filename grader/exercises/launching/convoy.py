@@ -6,6 +6,7 @@ from grader.checks import Missed, publishes
 from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from grader.workspace.installation import ros2_launch
 from grader.workspace.near_misses import commas, entry_points, executables
 from grader.workspace.package import PackageRun
@@ -14,7 +15,7 @@ from sim import World
 __all__ = ["LANES", "convoy"]
 
 WALL = 2.0  # m: where the wall ahead is; all robots start at 0
-GAPS = {"left": 0.5, "right": 1.0}  # m
+SIDES = "left", "right"
 REQUESTED = 0.8  # m: for the left one, by an argument
 NEAR, MOVED = 0.08, 0.02  # m
 LANES = World.from_data({
@@ -33,7 +34,12 @@ def _launch(*words: str) -> partial:
 convoy = Exercise("convoy", "One launch file, two robots", package="convoy", scenarios=[
     Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
     Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={REQUESTED}")),
-], near_misses=[commas, entry_points, executables])
+], near_misses=[commas, entry_points, executables], variants=Variants(
+    {"left": (0.5, 0.6, 0.4)},  # m
+    {"right": (1.0, 1.2)},
+    texts=("**{left} m**", 'default_value="{left}"', "{left} m before",
+           "**{right:g} m**", '"right", {right})', "such as `{right}`", "{right:g} m before"),
+))
 
 
 def _ignores_namespaces(run: PackageRun) -> bool:
@@ -49,7 +55,7 @@ def _ignores_namespaces(run: PackageRun) -> bool:
 })
 def drives_both(run: PackageRun) -> None:
     """`ros2 launch convoy two.launch.py` drives both robots, through /left/cmd_vel and /right/cmd_vel."""
-    for side in GAPS:
+    for side in SIDES:
         publishes(run, f"/{side}/cmd_vel", "geometry_msgs/msg/Twist")
 
 
@@ -65,14 +71,15 @@ def leaves_the_third_alone(run: PackageRun) -> None:
 @convoy.check(3, after=drives_both)
 def right_keeps_its_distance(run: PackageRun) -> None:
     """The right robot stops 1 m before the wall, whatever the argument."""
-    _stops(run, "right", GAPS["right"], 'Give its Node parameters=[{"gap": 1.0}].')
+    _stops(run, "right", convoy.drawn.right, f'Give its Node parameters=[{{"gap": {convoy.drawn.right}}}].')
 
 
 @convoy.check(3, after=drives_both, only="plain")
 def left_keeps_its_distance(run: PackageRun) -> None:
     """The left robot stops 0.5 m before the wall without an argument."""
-    _stops(run, "left", GAPS["left"],
-           'Declare the default: DeclareLaunchArgument("gap", default_value="0.5").')
+    gap = convoy.drawn.left
+    hint = f'Declare the default: DeclareLaunchArgument("gap", default_value="{gap}").'
+    _stops(run, "left", gap, hint)
 
 
 @convoy.check(3, after=drives_both, only="asked")

@@ -8,6 +8,7 @@ from grader.checks.packages import ROS, imports, package_of, parsed
 from grader.companions.package_sensors import EDGES, VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
+from grader.variants import Variants
 from grader.workspace.installation import ros2_run
 from grader.workspace.near_misses import commas, entry_points
 from grader.workspace.package import PackageRun
@@ -21,7 +22,11 @@ SOON, SAME = 0.2, 0.05  # s, degrees
 gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
     Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
              companions=lambda seed: [partial(VoltageProbe, seed)]),
-], near_misses=[commas, partial(entry_points, commands=["gauge"])])
+], near_misses=[commas, partial(entry_points, commands=["gauge"])], variants=Variants(
+    {"slope": (100, 80, 60), "offset": (50, 40, 30)},  # all give 0 degrees for 0.5 V, which the probe sends
+    texts=("{slope} degrees per volt, minus {offset}", "{slope}.0 * volts - {offset}.0",
+           "{slope} times the voltage, minus {offset}"),
+))
 voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")
 
 
@@ -34,17 +39,19 @@ def publishes_degrees(run: PackageRun) -> None:
 @gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
     """Celsius is 100 times the voltage, minus 50; a voltage outside 0 to 3.3 V gives no message."""
+    drawn = gauge.drawn
     for voltage in voltages(run):
         volts, found = voltage.value.data, voltage.values()
+        degrees = float(drawn.slope) * volts - drawn.offset
         saw = f"{found[0]:.1f}" if found else "nothing"
         if not 0.0 <= volts <= 3.3:
             hint = "Such a voltage means a broken cable: leave it out."
             voltage.expects_nothing(f"nothing for {volts:.2f} V", hint, saw=saw)
-        elif not found or not same(found[0], 100.0 * volts - 50.0, SAME):
-            hint = "celsius(volts) is 100 * volts - 50."
+        elif not found or not same(found[0], degrees, SAME):
+            hint = f"celsius(volts) is {drawn.slope} * volts - {drawn.offset}."
             if not found and any(same(volts, edge, 1e-6) for edge in EDGES):
                 hint = EDGE
-            raise Missed(f"{100.0 * volts - 50.0:.1f} for {volts:.3f} V", saw, hint)
+            raise Missed(f"{degrees:.1f} for {volts:.3f} V", saw, hint)
 
 
 @gauge.check(5)
@@ -58,7 +65,8 @@ def has_a_module(run: PackageRun) -> None:
         raise Missed(f"a function celsius in ws/src/{PLACE}", saw,
                      "Put the arithmetic there, and nothing else.")
     if not any(isinstance(node, ast.BinOp) for node in nodes):
-        raise Missed(f"the conversion in ws/src/{PLACE}", "no arithmetic there", "Return 100 * volts - 50.")
+        hint = f"Return {gauge.drawn.slope} * volts - {gauge.drawn.offset}."
+        raise Missed(f"the conversion in ws/src/{PLACE}", "no arithmetic there", hint)
     if not any(path.startswith("lib/gauge/") for path in programs):
         raise Missed("a program", "none")  # the error of `ros2 run` explains it
     modules = [path for path in sources if path.startswith("gauge/gauge/") and path != PLACE]

@@ -10,11 +10,11 @@ from grader.checks.services import call_text
 from grader.exercise import Exercise, Scenario
 from grader.exercises.launching.keeper.crates import FIND, FULL, INTERFACES, SCANNED, crates
 from grader.responses import Stimuli, requests_from_course
+from grader.variants import Variants
 from grader.workspace.installation import ros2_run
 from grader.workspace.package import PackageRun
 from sim.evidence import Call, Recording
 
-LOADED = "/full"
 SOON = 0.2  # s
 NEWEST = ("A crate that is scanned again has new values: replace the old ones with self.crates[msg.label] = "
           "msg.")
@@ -25,21 +25,23 @@ keeper = Exercise("keeper", "A node that uses your messages", package="crate_kee
                   scenarios=[
     Scenario(seconds=8.5, seed=seed, prepare=partial(ros2_run, "crate_keeper", "keeper"), companions=crates)
     for seed in (1, 2)
-])
-scanned = Stimuli(SCANNED, answered_on=LOADED, within=SOON, what="crates on /crates")
+], variants=Variants({"full": ("/full", "/loaded", "/heavy"), "name": ("full", "loaded", "heavy")},
+                     texts=("{full}", '"{name}"')))
 
 
 @keeper.check(2)
 def publishes_crates(run: PackageRun) -> None:
     """`ros2 run crate_keeper keeper` publishes messages of your type Crate on /full."""
-    with hinting("Write from crate_interfaces.msg import Crate, and create a publisher for /full."):
-        publishes(run, LOADED, "crate_interfaces/msg/Crate")
+    full = keeper.drawn.full
+    with hinting(f"Write from crate_interfaces.msg import Crate, and create a publisher for {full}."):
+        publishes(run, full, "crate_interfaces/msg/Crate")
 
 
 @keeper.check(4, after=publishes_crates)
 def forwards_full_crates(run: PackageRun) -> None:
     """Each crate on /crates that is FULL is published on /full unchanged, and no other."""
-    for crate in scanned(run):
+    full = keeper.drawn.full
+    for crate in Stimuli(SCANNED, answered_on=full, within=SOON, what="crates on /crates")(run):
         what = f"{crate.value.label} ({crate.value.mass:g} kg)"
         if crate.value.state != FULL:
             hint = "if msg.state == Crate.FULL: publish it. The constant is in your message."
@@ -48,7 +50,7 @@ def forwards_full_crates(run: PackageRun) -> None:
             saw = crate.seen("label")
             same = [response for response in crate.responses if response.message.label == crate.value.label]
             hint = "Publish the message that you received, with all of its fields." if same else FORWARD
-            expected = f"{what} on {LOADED} within {SOON:g} s of {crate.stamp:.3g} s"
+            expected = f"{what} on {full} within {SOON:g} s of {crate.stamp:.3g} s"
             raise Missed(expected, f"{saw}, with other fields" if same else saw, hint)
 
 

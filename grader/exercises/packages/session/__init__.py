@@ -11,6 +11,7 @@ from grader.checks.typed import TYPED, first_failure
 from grader.exercise import Exercise, Scenario
 from grader.exercises.packages.session.watchman_package import FILES, NAME, NUMBER, write_watchman
 from grader.responses import same
+from grader.variants import Variants
 from grader.workspace.installation import typed_in_terminals
 from grader.workspace.package import PackageRun
 from sim import World
@@ -19,12 +20,11 @@ from sim.ros2.system import OWN_NAME
 
 __all__ = ["session", "write_watchman"]
 
-CREATED = "lantern"  # the student's own package
-FACTS = {  # as `ros2 pkg create` prints them
-    "package name": CREATED, "destination directory": "ws/src", "build type": "ament_python",
+FACTS = {  # as `ros2 pkg create` prints them, beside the package's name
+    "destination directory": "ws/src", "build type": "ament_python",
     "node_name": "shine", "dependencies": "rclpy, std_msgs",
 }
-FACT = re.compile(rf"({'|'.join(FACTS)}): (.*)")
+FACT = re.compile(rf"(package name|{'|'.join(FACTS)}): (.*)")
 WRONG_FACTS = {
     "package name": "The name is the one word without dashes in front of it.",
     "destination directory": "It is created in the terminal's folder: `cd ws/src` first.",
@@ -34,7 +34,7 @@ WRONG_FACTS = {
 }
 
 COMMANDS, LOGBOOK, TWIST = "/cmd_vel", "/logbook", "geometry_msgs/msg/Twist"
-SLOW, FAST = 0.1, 0.25  # m/s
+SLOW = 0.1  # m/s
 ON_CTRL_C = 1  # commands of 0, which the program sends when it is ended
 LONG, LATE = 5.0, 0.5  # s: at each speed; a command that comes so late
 CALL = "It waits for a call: `ros2 service list -t` shows the service, `ros2 interface show` its fields."
@@ -44,7 +44,11 @@ AGAIN = "Set the parameter while it runs. A value that is given at a start is fo
 session = Exercise("session", "A session in terminals", package=NAME, scenarios=[
     Scenario(lambda seed: World.generate("room", seed=seed), seconds=90, seed=1,
              prepare=partial(typed_in_terminals, NAME)),
-], may_end=True)
+], may_end=True, variants=Variants(
+    {"created": ("lantern", "torch", "lamp")},  # the student's own package
+    {"fast": (0.25, 0.2)},  # m/s
+    texts=("{created}", "{fast} m/s", "pace {fast}"),
+))
 
 
 @session.check(2, hints={
@@ -94,21 +98,22 @@ def patrols(run: PackageRun) -> list[tuple[Seconds, float]]:
 @session.check(2, after=patrols)
 def changes_pace(run: PackageRun, driven: list[tuple[Seconds, float]]) -> None:
     """While it drives, and without another start, its pace becomes 0.25 m/s, for 5 s or longer."""
+    fast = session.drawn.fast
     with first_failure(run):
         later = [(stamp, speed) for stamp, speed in driven if speed and not same(speed, SLOW)]
         if not later:
             hint = "The pace is a parameter of its node: `ros2 param list`, then `ros2 param set`."
-            raise Missed(f"{FAST:g} m/s after some time", f"{SLOW:g} m/s to the end", hint)
+            raise Missed(f"{fast:g} m/s after some time", f"{SLOW:g} m/s to the end", hint)
         since = later[0][0]
         for stamp, speed in driven:
-            if stamp >= since and speed and not same(speed, FAST):
-                expected = f"{FAST:g} m/s from {since:.3g} s on"
-                hint = "Set it once, to 0.25. Are two programs driving?"
+            if stamp >= since and speed and not same(speed, fast):
+                expected = f"{fast:g} m/s from {since:.3g} s on"
+                hint = f"Set it once, to {fast}. Are two programs driving?"
                 raise Missed(expected, f"{speed:g} m/s at {stamp:.3g} s", hint)
         pause, at = longest_pause(stamps(run.during(driven[0][0], driven[-1][0]).messages(COMMANDS)))
         if pause > LATE:
             raise Missed("commands without a pause", f"none for {pause:.3g} s, from {at:.3g} s on", AGAIN)
-        _lasts(since, driven[-1][0], FAST)
+        _lasts(since, driven[-1][0], fast)
 
 
 @session.check(2, after=starts, hints={BADGE: lambda run: True})
@@ -125,18 +130,20 @@ def creates(run: PackageRun) -> None:
     """With `ros2 pkg create` the package lantern is created in ws/src; it is built, its program started."""
     shown = "".join(text for _, text in run.prints).splitlines()
     blocks = _created(shown)
-    facts = next((each for each in blocks if each.get("package name") == CREATED), (*blocks, {})[0])
-    for name, right in FACTS.items() if facts else ():
+    created = session.drawn.created
+    facts = next((each for each in blocks if each.get("package name") == created), (*blocks, {})[0])
+    wanted = {"package name": created, **FACTS} if facts else {}
+    for name, right in wanted.items():
         seen = facts.get(name, "nothing")
         if not _fits(name, right, seen):
             raise Missed(f"{name}: {right}", f"{name}: {seen}", WRONG_FACTS[name])
     with first_failure(run):
         if not facts:
             hint = "Part 1 of lesson 11a uses it, and `ros2 pkg create --help` shows its options."
-            raise Missed(f"`ros2 pkg create`, for the package {CREATED}", "no new package", hint)
-        if f"Hi from {CREATED}." not in shown:
+            raise Missed(f"`ros2 pkg create`, for the package {created}", "no new package", hint)
+        if f"Hi from {created}." not in shown:
             hint = "A new package is built, and sourced, like any other; then `ros2 run` starts its program."
-            raise Missed(f"“Hi from {CREATED}.”, which its program prints", "no such line", hint)
+            raise Missed(f"“Hi from {created}.”, which its program prints", "no such line", hint)
 
 
 def _created(shown: list[str]) -> list[dict[str, str]]:
