@@ -9,19 +9,24 @@ from grader.companions.drivers import JOY, NAV, Drivers
 from grader.companions.radios import WIFI
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, require_standing, same
+from grader.variants import Variants
 from grader.worlds.trusting import trusting
 from sim.evidence import Message, Recording, Seconds
 
-OLD, BRAKING = 0.85, 1.0  # s: certainly older than the time-out, over the network, too; to stop
-STEP, STEADY, BEGIN, SILENT = 0.1, 0.35, 0.5, 0.3  # s
+OLD, FRESH = 0.35, 0.15  # s after and before the time-out: certainly old or fresh, over the network, too
+STEP, BEGIN, SILENT = 0.1, 0.5, 0.3  # s
 ARRIVED = 0.24  # s, within which a command has certainly come over the network, and gone out again
 ZERO = "A 0 from the joystick is a command, too: check how old it is, not how fast."
-FIRST = "Check the joystick first: while its command is less than 0.5 s old, the navigator has to wait."
+FIRST = "Check the joystick first: while its command is less than {} s old, the navigator has to wait."
 
 mux = Exercise("mux", "Two drivers, one robot", scenarios=[
     Scenario("yard", 15, 1, [Drivers]),
     Scenario(trusting("yard"), 15, 2, [Drivers], network=WIFI),
-])
+], variants=Variants(
+    {"timeout": (0.5, 1.0), "stopped": (1.0, 1.5)},  # s
+    texts=("{timeout} s ago", "The {timeout} s leaves", "< {timeout}", "for {timeout} s",
+           "within {stopped:g} s"),
+))
 
 
 class MuxSample(NamedTuple):
@@ -54,8 +59,8 @@ def passes_the_navigator(run: Recording) -> None:
     """Before the joystick is touched, the robot obeys the navigator."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.stamp < first]
-    hint = ("Store the navigator's last command and when it arrived; while it is less than 0.5 s old, "
-            "publish it.")
+    hint = ("Store the navigator's last command and when it arrived; while it is less than "
+            f"{mux.drawn.timeout} s old, publish it.")
     _compare(run, samples, NAV, hint)
 
 
@@ -64,8 +69,9 @@ def joystick_wins(run: Recording) -> None:
     """While the joystick publishes, only its commands count, even if it sends 0."""
     samples = [sample for sample in _samples(run) if sample.joy]
     stops = [sample for sample in samples if sample.joy == (0.0, 0.0)]
+    first = FIRST.format(mux.drawn.timeout)
     try:
-        _compare(run, [sample for sample in samples if sample.joy != (0.0, 0.0)], JOY, FIRST)
+        _compare(run, [sample for sample in samples if sample.joy != (0.0, 0.0)], JOY, first)
     except Missed as missed:
         missed.unsafe = any(sample.sent is not None and any(sample.sent) for sample in stops)
         raise
@@ -77,7 +83,8 @@ def gives_back(run: Recording) -> None:
     """When the joystick has been silent for 0.5 s, the navigator drives again."""
     first = from_course(run, JOY)[0].stamp
     samples = [sample for sample in _samples(run) if sample.nav and sample.joy_is_old]
-    hint = "The joystick's last command never expires: compare the time since it arrived with 0.5 s."
+    hint = ("The joystick's last command never expires: compare the time since it arrived with "
+            f"{mux.drawn.timeout} s.")
     _compare(run, [sample for sample in samples if sample.stamp > first], NAV, hint)
 
 
@@ -85,12 +92,13 @@ def gives_back(run: Recording) -> None:
 def stands_without_both(run: Recording) -> None:
     """When both have fallen silent, the robot stops within 1 s, until one of them publishes again."""
     sent = sorted(row.stamp for topic in (JOY, NAV) for row in from_course(run, topic))
+    limits = mux.drawn
     hint = ("Both drivers' commands expire. Check their ages every time, by the clock, and publish an empty "
-            "Twist when neither is less than 0.5 s old.")
+            f"Twist when neither is less than {limits.timeout} s old.")
     for begin, end in zip(sent, [*sent[1:], run.ended.stamp], strict=True):
-        if end - begin > BRAKING:
-            why = f"{BRAKING:g} s after the last command, at {begin:.3g} s"
-            require_standing(run, Window(begin + BRAKING, end), why, hint)
+        if end - begin > limits.stopped:
+            why = f"{limits.stopped:g} s after the last command, at {begin:.3g} s"
+            require_standing(run, Window(begin + limits.stopped, end), why, hint)
 
 
 def _compare(run: Recording, samples: list[MuxSample], topic: str, hint: str) -> None:
@@ -115,7 +123,7 @@ def _samples(run: Recording) -> list[MuxSample]:
     found = []
     for now, out in sorted(looks, key=lambda look: look[0]):
         newest = last_before(joy, now)
-        is_old = newest is None or now - newest.stamp > OLD
+        is_old = newest is None or now - newest.stamp > mux.drawn.timeout + OLD
         command = speeds(out) if out and now - out.stamp < SILENT else None
         found.append(MuxSample(now, _steady(joy, now), _steady(nav, now), is_old, command))
     return found
@@ -123,7 +131,7 @@ def _samples(run: Recording) -> list[MuxSample]:
 
 def _steady(sent: list[Message], now: Seconds) -> Speeds | None:
     """Return what a driver wants for certain: fresh, and the same for a while."""
-    rows = Window(now - STEADY, now).rows(sent)
+    rows = Window(now - (mux.drawn.timeout - FRESH), now).rows(sent)
     wanted = {speeds(row) for row in rows}
     arrived = len(rows) >= 2 and rows[0].stamp <= now - ARRIVED
     return wanted.pop() if arrived and len(wanted) == 1 else None

@@ -11,6 +11,7 @@ from grader.companions.drivers import RAW, RoughDriver
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
 from grader.responses import from_course
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds
 
 NEAR, SOON = 1e-6, 0.1  # s, in which an answer comes
@@ -27,9 +28,13 @@ class Axis(NamedTuple):
     unit: str
 
 
-AXES = (Axis("linear.x", 0, 0.3, 0.025, "m/s"), Axis("angular.z", 1, 1.0, 0.1, "rad/s"))
-
-smooth = Exercise("smooth", "No jerks", world="yard", seconds=10, companions=[RoughDriver], seeds=(1, 2))
+smooth = Exercise("smooth", "No jerks", world="yard", seconds=10, companions=[RoughDriver], seeds=(1, 2),
+                  variants=Variants(
+    {"speed": (0.3, 0.4), "speed_step": (0.025, 0.04)},
+    {"turn": (1.0, 0.8), "turn_step": (0.1, 0.05)},
+    texts=("{speed} m/s", "{speed_step} m/s", "self.speed, {speed}, {speed_step})", "{turn} rad/s",
+           "{turn:g} rad/s", "{turn_step} rad/s", "self.turn, {turn}, {turn_step})"),
+))
 
 
 class Response(NamedTuple):
@@ -128,7 +133,10 @@ def _answered(requests: list[Message], sent: list[Message]) -> list[tuple[Messag
 
 def _pairs(run: Recording) -> Iterator[Response]:
     requests, sent = from_course(run, RAW, at_least=20), publishes(run, OUT, TWIST)
-    for axis in AXES:
+    limits = smooth.drawn
+    axes = (Axis("linear.x", 0, limits.speed, limits.speed_step, "m/s"),
+            Axis("angular.z", 1, limits.turn, limits.turn_step, "rad/s"))
+    for axis in axes:
         before = 0.0
         for request, row in _answered(requests, sent):
             value = speeds(row)[axis.index]
