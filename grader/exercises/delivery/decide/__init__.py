@@ -8,6 +8,7 @@ from grader.exercises.delivery.decide.scripted_orders import Situation, desk, si
 from grader.geometry import Point, Pose2D
 from grader.geometry.near import is_near
 from grader.responses import Window, from_student, last_before
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds, since_start
 
 __all__ = ["decide", "desk"]
@@ -18,7 +19,13 @@ TOGETHER = 0.1  # s; the desk publishes a situation's orders one after the other
 SAME = 0.02  # m
 PAST = "Subscribe to /orders with LATCHED, and store orders by their id: a later message replaces it."
 
-decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
+decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2),
+                  variants=Variants(
+    {"deliver": ("deliver", "carry")},  # states
+    {"charge": ("charge", "recharge")},
+    {"rest": ("rest", "park")},
+    texts=("**{deliver}**", '"{deliver}"', "**{charge}**", '"{charge}"', "**{rest}**", '"{rest}"'),
+))
 
 
 @decide.check(2)
@@ -44,7 +51,7 @@ def delivers_first(run: Recording) -> None:
 def charges(run: Recording) -> None:
     """It charges below 30 %, then until 80 %, and not in between."""
     hint = ("Use two limits: below 0.3 it starts charging; below 0.8 it continues if the last state was "
-            "charge.")
+            f"{decide.drawn.charge}.")
     _compare(run, "charges", hint)
 
 
@@ -102,17 +109,17 @@ def _require_a_decision(run: Recording) -> None:
 def _compare(run: Recording, about: str, hint: str) -> None:
     """Raises Missed at the first situation that tests this rule and in which something else was decided."""
     for one in situations(run.seed, about):
-        begin = one.begin + LATE
+        begin, wanted = one.begin + LATE, vars(decide.drawn).get(one.state, one.state)
         window = Window(begin, run.ended.stamp).before(one.end)
         goals, states = (_decided(run, topic, window) for topic in (GOAL, STATE))
-        expected = f"“{one.state}” and {_text(one.place)} from {begin:.3g} s on, because {one.reason}"
+        expected = f"“{wanted}” and {_text(one.place)} from {begin:.3g} s on, because {one.reason}"
         if not (goals and states):
             saw = f"nothing published from {begin:.3g} s to {one.end:.3g} s"
             raise Missed(expected, saw, hint, picture="topics")
         places = _places(run, one)
         for state, goal in zip(states, goals, strict=False):
             place = Pose2D.from_message(goal.message.pose)[:2]
-            if state.message.data != one.state or not any(is_near(place, each, SAME) for each in places):
+            if state.message.data != wanted or not any(is_near(place, each, SAME) for each in places):
                 saw = f"“{state.message.data}” and {_text(place)} at {goal.stamp:.3g} s"
                 first = () if about == "past" else (knows_latched_messages,)
                 raise Missed(expected, saw, hint, picture="topics", because=first)

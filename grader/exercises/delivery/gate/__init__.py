@@ -11,6 +11,7 @@ from grader.exercise import Exercise
 from grader.exercises.delivery.gate.faulty_perception import GOAL, PEOPLE, POSE, partners
 from grader.geometry import Point, Pose2D
 from grader.responses import Window, from_course, from_student, last_before, top_speed
+from grader.variants import Variants
 from grader.worlds.warehouses import floor_of
 from sim import Network
 from sim.evidence import Recording, Seconds, since_start
@@ -36,7 +37,10 @@ BUSY = Network(links={
 })
 
 gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=52, companions=partners,
-                network=BUSY, seeds=(2,))
+                network=BUSY, seeds=(2,), variants=Variants(
+    {"rate": (10.0, 20.0), "period": (0.1, 0.05), "often": ("ten", "twenty")},
+    texts=("{often} times a second", "create_timer({period}, self.drive)"),
+))
 
 
 @gate.check(2, guess="Leave the subscriptions unchanged, and publish at the end of drive.")
@@ -86,7 +90,7 @@ def stands_without_new_messages(run: Recording) -> None:
 def publishes_stops_and_goes_on(run: Recording) -> None:
     """It always publishes ten times a second, and drives on when it is allowed to."""
     try:
-        rate(run, OUT, 10.0, tolerance=0.15)
+        rate(run, OUT, gate.drawn.rate, tolerance=0.15)
     except Missed as missed:
         missed.hint = missed.hint if _publishes_while_it_stands(run) else NO_STOPS
         raise

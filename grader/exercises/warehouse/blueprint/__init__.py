@@ -5,6 +5,7 @@ from typing import NamedTuple
 from grader.checks import Missed
 from grader.exercise import Exercise
 from grader.exercises.warehouse.blueprint.planned_nodes import ShelfCamera, publishes, sketch, subscribes
+from grader.variants import Variants
 from grader.worlds.warehouses import hall
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
 
@@ -14,7 +15,13 @@ POSE, POSES, TEXT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseArra
 PROGRAMS = "perception", "reader", "decision", "control"
 DRIVER = "/cmd_vel"
 
-blueprint = Exercise("blueprint", "The graph on paper", world=hall, seconds=1, companions=[ShelfCamera])
+blueprint = Exercise("blueprint", "The graph on paper", world=hall, seconds=1, companions=[ShelfCamera],
+                     variants=Variants(
+    {"people": ("/people", "/pedestrians")},
+    {"obstacles": ("/obstacles", "/boxes")},
+    {"goal": ("/goal_pose", "/target_pose")},
+    texts=("{people}", "{obstacles}", "{goal}"),
+))
 
 
 class PlannedTopic(NamedTuple):
@@ -43,6 +50,13 @@ TOPICS = {
 }
 
 
+def _topics() -> dict[str, PlannedTopic]:
+    """The topics of the plan, with the names of the variant that is judged."""
+    drawn = blueprint.drawn
+    names = {"/people": drawn.people, "/obstacles": drawn.obstacles, "/goal_pose": drawn.goal}
+    return {names.get(name, name): topic for name, topic in TOPICS.items()}
+
+
 @blueprint.check(2)
 def has_four_programs(run: Recording) -> None:
     """There are four programs: perception, reader, decision and control."""
@@ -56,7 +70,7 @@ def has_four_programs(run: Recording) -> None:
 def publishes_answers(run: Recording) -> None:
     """Each program publishes its results, with the right types."""
     hint = "Read each program's question: what does it publish, on which topic, of which type?"
-    for name, topic in TOPICS.items():
+    for name, topic in _topics().items():
         if topic.publisher:
             _require(run, "publisher", topic.publisher, name, topic.type, hint)
 
@@ -64,10 +78,10 @@ def publishes_answers(run: Recording) -> None:
 @blueprint.check(4, after=has_four_programs)
 def subscribes_to_what_it_needs(run: Recording) -> None:
     """Each program subscribes to what its task needs, with the right types: control to /people, too."""
-    for name, topic in TOPICS.items():
+    for name, topic in _topics().items():
         for program in topic.subscribers:
             hint = "Read each program's question: what does it have to receive to answer it?"
-            if name in ("/people", "/obstacles", "/robot_pose"):
+            if topic.publisher == "perception":
                 hint = "Safety must not depend on decision: control subscribes to perception directly."
             _require(run, "subscription", program, name, topic.type, hint)
 
@@ -75,8 +89,9 @@ def subscribes_to_what_it_needs(run: Recording) -> None:
 @blueprint.check(3, after=subscribes_to_what_it_needs)
 def subscribes_to_nothing_else(run: Recording) -> None:
     """No program subscribes to what it doesn't need: decision not to the lidar, control not to orders."""
+    topics = _topics()
     for end in _endpoints(run, "subscription"):
-        wanted, optional = TOPICS[end.name][2:] if end.name in TOPICS else ((), ())
+        wanted, optional = topics[end.name][2:] if end.name in topics else ((), ())
         program = end.node.strip("/")
         if program not in (*wanted, *optional):
             who = ", ".join(wanted) or "none of the four"
@@ -89,7 +104,7 @@ def has_one_publisher_for_each(run: Recording) -> None:
     """Each topic has one program that publishes it: only control commands the motors."""
     for end in _endpoints(run, "publisher"):
         program = end.node.strip("/")
-        topic = TOPICS.get(end.name)
+        topic = _topics().get(end.name)
         if topic is None or topic.publisher != program:
             who = topic.publisher if topic and topic.publisher else "the robot" if topic else "no program"
             hint = "Give each topic one program that publishes it, and drop topics that no program needs."

@@ -8,6 +8,7 @@ from grader.exercise import Exercise
 from grader.exercises.warehouse.shelves.parcel_database import LABELS, scanner, seconds_for, stored
 from grader.exercises.warehouse.shelves.parcel_library import shelf_of
 from grader.responses import EDGE, from_course, from_student, text_of
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds
 
 __all__ = ["scanner", "shelf_of", "shelves"]
@@ -19,7 +20,11 @@ STRING = "std_msgs/msg/String"
 TOO_SELDOM = ("spin_once() runs one callback each time. Sleep 0.02 s between two calls, with "
               "await asyncio.sleep(0.02).")
 
-shelves = Exercise("shelves", "asyncio alongside rclpy", seconds=15, companions=scanner, seeds=(1, 2))
+shelves = Exercise("shelves", "asyncio alongside rclpy", seconds=15, companions=scanner, seeds=(1, 2),
+                   variants=Variants(
+    {"between": (": ", " -> ", " = ")},  # a label and its shelf
+    texts=("P481{between}C7", "{{label}}{between}{{shelf}}", "label{between}shelf"),
+))
 
 
 @shelves.check(1, guess="Leave __init__ unchanged, and let rclpy.spin_once run what is due.")
@@ -35,7 +40,7 @@ def has_its_endpoints(run: Recording) -> None:
         lambda run, label, texts: any("coroutine" in text for text in texts),
     "A shelf was published with another parcel's label. Several coroutines run at the same time, so "
     "each needs its own label: pass it as an argument.":
-        lambda run, label, texts: any(text.endswith(f": {stored(run.seed, label)}") for text in texts),
+        lambda run, label, texts: any(text.endswith(_answer(run, "", label)) for text in texts),
     "A task runs only while asyncio's event loop gets a turn. Write `await asyncio.sleep(0.02)` after each "
     "spin_once(): rclpy.spin() and time.sleep() never give it one.":
         lambda run, label, texts: not from_student(run, SHELVES),
@@ -46,9 +51,10 @@ def answers_each_label(run: Recording) -> list[tuple[Message, Message]]:
     answers, found = from_student(run, SHELVES), []
     for row in from_course(run, LABELS, settled=MOST, what="labels"):
         label = row.message.data
-        wanted, ready = f"{label}: {stored(run.seed, label)}", row.stamp + seconds_for(run.seed, label)
+        wanted, ready = _answer(run, label, label), row.stamp + seconds_for(run.seed, label)
         later = [answer for answer in answers if answer.stamp >= row.stamp - EDGE]
-        own = [answer for answer in later if answer.message.data.startswith(f"{label}:")]
+        begin = f"{label}{shelves.drawn.between}".rstrip()
+        own = [answer for answer in later if answer.message.data.startswith(begin)]
         if [answer.message.data for answer in own] != [wanted] or own[0].stamp < ready - EDGE:
             expected = f"one “{wanted}”, at {ready:.3g} s or later"
             texts = [answer.message.data.partition(" at 0x")[0] for answer in later]
@@ -95,6 +101,11 @@ def stays_alive(run: Recording) -> None:
     if pause > PAUSE:
         saw = f"none for {pause:.2g} s, from {since:.3g} s on"
         raise Missed(f"a message on {ALIVE} every 0.1 s", saw, about=(pause,), picture="topics")
+
+
+def _answer(run: Recording, shown: str, label: str) -> str:
+    """The text with which a label's shelf is published. shown: the label in it."""
+    return f"{shown}{shelves.drawn.between}{stored(run.seed, label)}"
 
 
 def _longest_silence(run: Recording) -> tuple[Seconds, Seconds]:
