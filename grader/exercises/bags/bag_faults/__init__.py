@@ -11,12 +11,13 @@ from grader.exercise import Exercise, Scenario
 from grader.exercises.bags.bag_faults.faulty_bags import BUSY, FAULTS, NONE, Case, draw_case, player_of
 from grader.exercises.bags.bag_faults.practice_bags import faulty_bag
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds, since_start
 from sim.nanoseconds import EPOCH, SECOND
 
 __all__ = ["bag_faults", "faulty_bag"]
 
-TOPIC, TYPE = "/diagnosis", "diagnostic_msgs/msg/DiagnosticStatus"
+TYPE = "diagnostic_msgs/msg/DiagnosticStatus"
 NAMES = (*FAULTS, NONE)
 KINDS = ("two_odometries", NONE, "wheel_radius", "missing_transform", BUSY, "lidar_yaw", "clock_offset")
 SECONDS = END + 4.0
@@ -43,6 +44,7 @@ bag_faults = Exercise(
         Scenario(None, SECONDS, number, functools.partial(companions, kind), name=kind, waits=False)
         for number, kind in enumerate(KINDS, 1)
     ],
+    variants=Variants({"topic": ("/diagnosis", "/bag_diagnosis", "/fault")}, texts=("{topic}",)),
 )
 
 
@@ -117,7 +119,7 @@ def finds_the_second_odometry(run: Recording) -> None:
 
 
 def _diagnosis(run: Recording) -> Diagnosis:
-    status = publishes(run, TOPIC, TYPE)[-1].message
+    status = publishes(run, bag_faults.drawn.topic, TYPE)[-1].message
     if status.name not in NAMES:
         hint = "The name of the DiagnosticStatus is that of the fault, as it is written in the task."
         raise Missed(f"one of {', '.join(NAMES)} as name", f"{status.name!r}", hint)

@@ -10,6 +10,7 @@ from grader.checks import Missed, publishes
 from grader.exercise import Exercise, Scenario
 from grader.exercises.bags.bag_report.quiet_lidar import SCAN, draw_bag, example_bag, player
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds, since_start
 from sim.nanoseconds import EPOCH, SECOND
 
@@ -27,6 +28,11 @@ bag_report = Exercise(
         Scenario(None, SECONDS, 1, functools.partial(player, begins_late=False), name=WHOLE, waits=False),
         Scenario(None, SECONDS, 2, functools.partial(player, begins_late=True), name=LATE, waits=False),
     ],
+    variants=Variants(
+        {"gap": ("gap", "silence"), "gap_begin": ("gap_begin", "silence_begin")},  # keys of the values
+        {"age": ("age", "latency")},
+        texts=("`{gap}`", "`{gap_begin}`", "`{age}`", '"{gap}"', '"{gap_begin}"', '"{age}"'),
+    ),
 )
 
 
@@ -76,36 +82,37 @@ def knows_the_rate(run: Recording, values: dict[str, str]) -> None:
 def knows_the_gap(run: Recording, values: dict[str, str]) -> None:
     """`gap` is the longest time between two scans, in s, and `gap_begin` the stamp of the scan before it."""
     scans = _scans(run)
+    key, begin_key = bag_report.drawn.gap, bag_report.drawn.gap_begin
     gap, begin = max((b.measured - a.measured, a.measured) for a, b in itertools.pairwise(scans))
-    if not is_near(_number(values, "gap"), gap, GAP):
+    if not is_near(_number(values, key), gap, GAP):
         hint = "The gap is the longest time between the stamps of two scans that follow one another."
         arrivals = sorted(scan.arrived for scan in scans)
-        if is_near(_number(values, "gap"), max(b - a for a, b in itertools.pairwise(arrivals)), GAP):
+        if is_near(_number(values, key), max(b - a for a, b in itertools.pairwise(arrivals)), GAP):
             hint = (
                 "That is the longest time between two arrivals: there the radio was silent, and the lidar "
                 "went on. When scans were measured is in their stamps."
             )
-        raise Missed(f"gap {gap:.3g} s", _saw(values, "gap"), hint)
-    found = _number(values, "gap_begin") - EPOCH / SECOND
+        raise Missed(f"{key} {gap:.3g} s", _saw(values, key), hint)
+    found = _number(values, begin_key) - EPOCH / SECOND
     if not is_near(found, begin, GAP):
         hint = "It is the stamp of the scan before the gap, since 1970: stamp.sec + stamp.nanosec / 1e9."
-        raise Missed(f"gap_begin {EPOCH / SECOND + begin:.2f}", _saw(values, "gap_begin"), hint)
+        raise Missed(f"{begin_key} {EPOCH / SECOND + begin:.2f}", _saw(values, begin_key), hint)
 
 
 @bag_report.check(1, after=reports)
 def knows_the_age(run: Recording, values: dict[str, str]) -> None:
     """`age` is the median of the scans' ages as they arrive, in s, within 0.012 s."""
     ages = [scan.arrived - scan.measured for scan in _scans(run)]
-    right = statistics.median(ages)
-    if not is_near(_number(values, "age"), right, AGE):
+    key, right = bag_report.drawn.age, statistics.median(ages)
+    if not is_near(_number(values, key), right, AGE):
         hint = (
             "Take the time at which the callback is called, by the node's clock, minus the stamp of the scan."
         )
-        if is_near(_number(values, "age"), -right, AGE):
+        if is_near(_number(values, key), -right, AGE):
             hint = "It is arrival minus stamp, not the other way round."
-        elif is_near(_number(values, "age"), statistics.mean(ages), AGE):
+        elif is_near(_number(values, key), statistics.mean(ages), AGE):
             hint = "That is the mean: a few scans that waited for the radio push it up. Take the median."
-        raise Missed(f"age {right:.3g} s", _saw(values, "age"), hint)
+        raise Missed(f"{key} {right:.3g} s", _saw(values, key), hint)
 
 
 @bag_report.check(2, after=reports)

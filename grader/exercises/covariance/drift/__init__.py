@@ -30,9 +30,9 @@ from grader.exercises.covariance.drift.short_drives import (
     encoders,
 )
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Message, Recording, since_start
 
-TOPIC = "/wheel_odom"
 SAME, NEAR = 1e-3, 5e-3  # relative; m and rad
 # 95 % of all sets of 50 drives with an honest covariance are between these, of 3 and of 1 dimensions.
 WHOLE, YAW = (117.98 / DRIVES, 185.80 / DRIVES), (32.36 / DRIVES, 71.42 / DRIVES)
@@ -40,7 +40,9 @@ LOSS = 0.5  # by which the mean log score may be worse than the best possible
 HUGE = 0.05  # a mean squared error in units of the covariance below this is next to nothing
 DEGREES = math.degrees(1.0) ** 2
 
-drift = Exercise("drift", "Odometry that knows how far it may be off", seconds=SECONDS, companions=encoders)
+drift = Exercise("drift", "Odometry that knows how far it may be off", seconds=SECONDS, companions=encoders,
+                 variants=Variants({"topic": ("/wheel_odom", "/encoder_odom", "/dead_reckoning")},
+                                   texts=("{topic}",)))
 
 __all__ = ["drift", "encoders"]
 
@@ -49,7 +51,7 @@ __all__ = ["drift", "encoders"]
 def publishes_odometry(run: Recording) -> list[list[Message]]:
     """For each message on /joint_states the node publishes an Odometry on /wheel_odom with the same stamp."""
     subscribes(run, "/joint_states", "sensor_msgs/msg/JointState")
-    sent = publishes(run, TOPIC, "nav_msgs/msg/Odometry", at_least=STEPS)
+    sent = publishes(run, drift.drawn.topic, "nav_msgs/msg/Odometry", at_least=STEPS)
     frames = {(row.message.header.frame_id, row.message.child_frame_id) for row in sent}
     if frames != {("odom", "base_link")}:
         names = " and ".join(map(repr, max(frames - {("odom", "base_link")})))

@@ -27,9 +27,9 @@ from grader.exercises.covariance.fused.tracks import (
     silent,
     wheels_error,
 )
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds, since_start
 
-TOPIC = "/odometry/filtered"
 PAUSE = 0.75  # s between the stamps of two estimates
 WARM = 1.0  # s from a drive's start in which no estimate is due
 BOUNDS = 12.401 / STREAMS, 39.364 / STREAMS  # 95 % of the sets of 24 honest estimates are between these
@@ -40,7 +40,10 @@ DEGREES = math.degrees(1.0) ** 2
 
 fused = Exercise("fused", "Wheels and gyro, fused", scenarios=[
     Scenario(seconds=SECONDS, seed=FAIR[0], companions=robots, fair=FAIR),
-])  # fmt: skip
+], variants=Variants(
+    {"topic": ("/odometry/filtered", "/odometry/fused", "/odometry/gyro")},
+    texts=("{topic}",),
+))  # fmt: skip
 
 __all__ = ["fused", "robots"]
 
@@ -50,7 +53,7 @@ def publishes_estimates(run: Recording) -> list[Track]:
     """The node fuses /odom and /imu/data, and publishes Odometry on /odometry/filtered in each drive."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
     subscribes(run, "/imu/data", "sensor_msgs/msg/Imu")
-    sent = publishes(run, TOPIC, "nav_msgs/msg/Odometry", at_least=STREAMS)
+    sent = publishes(run, fused.drawn.topic, "nav_msgs/msg/Odometry", at_least=STREAMS)
     firsts = _starts(run)
     rows = np.array([_row(each.message) for each in sent])
     tracks = []
