@@ -131,8 +131,8 @@ def stamps_it(run: Recording, pairs: list[tuple[Message, Broadcast]]) -> None:
     for fix, one in pairs:
         wanted = since_start(fix.message.header.stamp) + tolerance
         if not is_near(one.measured, wanted, 0.001):
-            hint = (f"The correction is for the time of the pose, header.stamp, not for now. Add {tolerance} s: "
-                    f"(Time.from_msg(stamp) + Duration(seconds={tolerance})).to_msg().")
+            hint = ("The correction is for the time of the pose, header.stamp, not for now. Add "
+                    f"{tolerance} s: (Time.from_msg(stamp) + Duration(seconds={tolerance})).to_msg().")
             raise Missed(f"{wanted:.3f} s", f"{one.measured:.3f} s at {one.stamp:.3g} s", hint)
 
 
