@@ -17,6 +17,8 @@ _POSSIBLE = {
     "finalized": "nothing any more",
 }
 _NO_TRANSITION = re.compile(r"No transition matching (\d+) found for current state (\w+)")
+_METHOD = re.compile(r", in (on_(?:configure|cleanup|activate|deactivate|shutdown))\n")
+_RAISED = re.compile(r"\n\s+raise \w.*\n[^\n]*\n?$")
 
 
 def invalid_transition(error: CallbackError, recording: Recording) -> str:
@@ -32,6 +34,17 @@ def invalid_transition(error: CallbackError, recording: Recording) -> str:
         f"{error.node}`, or the service get_state), and go through the states in order: configure, activate, "
         "deactivate, cleanup. rclpy does not refuse a wrong request: it raises an exception, and the node "
         "dies."
+    )
+
+
+def raising_transition(error: CallbackError) -> str:
+    """An exception raised on purpose in a transition's method, to let the transition fail."""
+    method = _METHOD.search(error.traceback)
+    if not method or not _RAISED.search(error.traceback):
+        return ""
+    return (
+        f"An exception in {method[1]} ends the transition with ERROR, and rclpy doesn't log it. If a "
+        "transition can't be made, log the reason, and return TransitionCallbackReturn.FAILURE."
     )
 
 

@@ -17,6 +17,7 @@ from grader.diagnosis.ros_situations import (
     init_in_with,
     invalid_description,
     invalid_transition,
+    raising_transition,
 )
 from sim.evidence import CallbackError, Recording, last_line
 from sim.ros.messages.codec import message_class
@@ -59,6 +60,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or filter_callback(error)
         or filter_input(error)
         or invalid_transition(error, recording)
+        or raising_transition(error)
         or invalid_description(error, recording)
         or asyncio_pause(error)
         or init_in_with(error)

@@ -65,10 +65,10 @@ def test_an_assignment_with_variants_has_a_tag_and_nothing_else_changes():
 
 
 def test_variants_are_refused_where_there_are_none():
-    path = ROOT / "solutions" / "13b_delivery" / "delivery.ipynb"
+    path = ROOT / "solutions" / "11c_testing" / "testing.ipynb"
     with pytest.raises(CourseError) as refused:
-        choose(nbformat.read(path, 4), {"variants": True}, "13b_delivery")
-    why = "13b_delivery has no exercise with variants: leave out `variants = true` in class/course.toml"
+        choose(nbformat.read(path, 4), {"variants": True}, "11c_testing")
+    why = "11c_testing has no exercise with variants: leave out `variants = true` in class/course.toml"
     assert str(refused.value) == why
 
 

@@ -24,25 +24,29 @@ from grader.exercises.lifecycle.bringup.transitions import (
     steps,
 )
 from grader.responses import EDGE
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds
 
 __all__ = ["bringup", "robot"]
 
-TRIES = 3
 FAILED = ("The response's success was False, so the node is still in its old state. Check success, and "
           "request the transition again before you turn to the next node.")
 EARLY = ("call_async returns at once, and the transition takes a moment. Wait for its response, as in "
          "`response = await client.call_async(request)`, before you request the next one.")
 ORDER = "Go through NODES in their order, first with configure for all three, then with activate."
-AGAIN = "While success is False, request the same transition again: at most three times in all."
-END = "Count the requests: after three failures, return without requesting anything else but shutdown."
+AGAIN = "While success is False, request the same transition again: at most {} times in all."
+END = "Count the requests: after {} failures, return without requesting anything else but shutdown."
 
 bringup = Exercise("bringup", "Bring up a robot, and shut it down", may_end=True, scenarios=[
     Scenario("room", 12, 1, robot, name="recovers"),
     Scenario("room", 12, 2, robot, name="recovers"),
     Scenario("room", 8, 1, never_configured, name="broken"),
     Scenario("room", 8, 5, never_active, name="broken"),
-])
+], variants=Variants(
+    {"tries": (3, 4, 5), "word": ("three", "four", "five"), "last": ("third", "fourth", "fifth")},
+    texts=("at most **{word} times**", "the {last} time", "up to {word} times", "failed {word} times",
+           "range({tries})", "the {last} failure"),
+))
 
 
 @bringup.check(2, guess="Call change(...) from bring_up, and send the request with call_async in it.")
@@ -79,9 +83,10 @@ def tries_again(run: Recording) -> None:
                 raise Missed(f"one request at a time to /{node}", f"{again.text}, before the response to the "
                              f"one at {before.requested:.3g} s", EARLY)  # fmt: skip
         if not any(step.success for step in tried):
+            guess = AGAIN.format(bringup.drawn.word)
             expected = f"configure of /{node} requested again after {len(tried)} failed"
             saw = f"no request after the one at {tried[-1].requested:.3g} s" if tried else "no request"
-            raise Missed(expected, saw, guess=AGAIN)
+            raise Missed(expected, saw, guess=guess)
 
 
 @bringup.check(4, after=tries_again, only="recovers")
@@ -95,7 +100,8 @@ def activates_in_order(run: Recording) -> Seconds:
         _is_requested(run, node, "activate", "when all three are inactive")
         now = state(run, node, end)
         if now != ACTIVE:
-            guess = "Shut down only in on_shutdown, and when a transition has failed three times."
+            guess = ("Shut down only in on_shutdown, and when a transition has failed "
+                     f"{bringup.drawn.word} times.")
             expected = f"/{node} active until {SHUTDOWN} is called at {end:.3g} s"
             raise Missed(expected, STATES[now], guess=guess)
     return end
@@ -119,16 +125,19 @@ def gives_up(run: Recording) -> Seconds:
     if failed is None:
         raise Missed("a request for each configure, then for each activate", _last(run), ORDER)
     tried = [step for step in steps(run, failed.label) if step.node == failed.node]
-    if len(tried) != TRIES:
-        expected = f"{TRIES} requests for {failed.label} of /{failed.node}, all of which fail"
+    count = bringup.drawn
+    if len(tried) != count.tries:
+        expected = f"{count.tries} requests for {failed.label} of /{failed.node}, all of which fail"
         saw = f"{len(tried)} request{'s' * (len(tried) > 1)}"
-        raise Missed(expected, saw, guess=END if len(tried) > TRIES else AGAIN)
+        guess = END if len(tried) > count.tries else AGAIN
+        raise Missed(expected, saw, guess=guess.format(count.word))
     last = tried[-1]
     for step in steps(run, *UP):
         if step.requested >= last.answered - EDGE:
             drives = step.success and (step.node, step.label) == (NODES[-1], "activate")
-            expected = f"nothing configured or activated after the third failure at {last.answered:.3g} s"
-            raise Missed(expected, step.text, END, unsafe=drives)
+            expected = (f"nothing configured or activated after the {count.last} failure at "
+                        f"{last.answered:.3g} s")
+            raise Missed(expected, step.text, END.format(count.word), unsafe=drives)
     with hinting('Before you shut down: self.get_logger().error(f"/{name} can\'t be brought up").'):
         logs(run, rf"\b{failed.node}\b", level="ERROR", example=f"/{failed.node} can't be brought up")
     return last.answered

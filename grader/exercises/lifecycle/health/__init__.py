@@ -10,6 +10,7 @@ from grader.exercise import Exercise
 from grader.exercises.lifecycle.health.battery_and_motor import BATTERY, MOTOR, BatteryAndMotor
 from grader.geometry.near import is_near
 from grader.responses import from_course, last_before
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds, since_start
 
 __all__ = ["BatteryAndMotor", "health"]
@@ -24,7 +25,12 @@ LEVELS = {
 YOUNG, OLD, STEADY, NOW = 0.85, 1.15, 0.25, 0.1  # s
 EXACT = 0.51  # of a percent, of a degree
 
-health = Exercise("health", "How are you?", seconds=13, companions=[BatteryAndMotor], seeds=(1, 2))
+health = Exercise("health", "How are you?", seconds=13, companions=[BatteryAndMotor], seeds=(1, 2),
+                  variants=Variants(
+    {"percent": ("percent", "charge")},  # keys of the values
+    {"celsius": ("celsius", "temperature")},
+    texts=("`{percent}`", '"{percent}"', "`{celsius}`", '"{celsius}"'),
+))
 
 
 class PartReport(NamedTuple):
@@ -73,7 +79,7 @@ def gives_the_number(run: Recording) -> None:
     for one in _reports(run):
         if one.true in (None, STALE):
             continue
-        key = "percent" if one.name == "battery" else "celsius"
+        key = _key(one.name)
         if not is_near(_number(one.value), one.number, EXACT):
             saw = "no such key" if one.value is None else repr(one.value)
             expected = f"{key} {one.number:.3g} in the values of {one.name} at {one.stamp:.3g} s"
@@ -102,10 +108,14 @@ def _reports(run: Recording) -> Iterator[PartReport]:
             number, age = _measured(newest), now - newest.stamp
             changes = before is not None and _measured(before) != number and age < STEADY
             true = STALE if age > OLD else None if changes or age > YOUNG else LEVELS[status.name](number)
-            key = "percent" if status.name == "battery" else "celsius"
-            value = next((pair.value for pair in status.values if pair.key == key), None)
+            value = next((pair.value for pair in status.values if pair.key == _key(status.name)), None)
             level = int.from_bytes(status.level, "little")
             yield PartReport(now, status.name, level, true, value, number, age)
+
+
+def _key(name: str) -> str:
+    """Return the key under which a part's number is."""
+    return str(health.drawn.percent if name == "battery" else health.drawn.celsius)
 
 
 def _measured(row: Message) -> float:
@@ -154,7 +164,8 @@ def _number(text: str | None) -> float:
 
 def _value_hint(one: PartReport) -> str:
     if one.value is None:
-        return 'status.values = [KeyValue(key=..., value=...)], with the keys "percent" and "celsius".'
+        keys = f'with the keys "{_key("battery")}" and "{_key("motor")}".'
+        return f"status.values = [KeyValue(key=..., value=...)], {keys}"
     if one.name == "battery" and is_near(_number(one.value) * 100, one.number, EXACT):
         return "That is not in percent: publish 100 times the percentage of the BatteryState."
     return "A KeyValue's value is a string: use str(...) of the number alone, without a unit."

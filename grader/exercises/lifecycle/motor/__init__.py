@@ -15,6 +15,7 @@ from grader.exercises.lifecycle.motor.motor_manager import (
 )
 from grader.geometry.near import is_near
 from grader.responses import Window, require_standing
+from grader.variants import Variants
 from grader.worlds.trusting import trusting
 from sim.evidence import Call, Message, Recording, Seconds
 
@@ -22,7 +23,7 @@ __all__ = ["MotorManager", "motor"]
 
 OUT = "/cmd_vel"
 SOON, BRAKING = 0.25, 0.4  # s: until the first command, and until the robot has stopped
-FEWEST, MOST = 7.0, 12.0  # Hz, in as short a time
+FEWEST, MOST = 0.7, 1.2  # of the rate, in as short a time
 CONFIGURE = 'In on_configure: self.speed = self.get_parameter("speed").value. And drive publishes self.speed.'
 LATE = ("Read the speed in on_configure, and nowhere else: it holds until the node is configured again, "
         "whatever the parameter is set to in the meantime.")
@@ -44,7 +45,7 @@ SHUTDOWN = ("A shutdown can come while the node is active, without a deactivate 
             "too, has to destroy the timer and stop the robot.")
 AGAIN = ("It succeeded in the first round. Each method has to undo what its counterpart did: then the next "
          "round begins like the first one.")
-PERIOD = "self.timer = self.create_timer(0.1, self.drive) calls it ten times a second."
+PERIOD = "self.timer = self.create_timer({period}, self.drive) calls it {often} times a second."
 UNDO = ("A timer is left over from before. What on_activate creates, on_deactivate destroys, and what "
         "on_configure creates, on_cleanup destroys: self.destroy_timer(self.timer).")
 REFUSE = ("In on_configure, before anything is created: if the speed isn't above 0 and at most 0.5, return "
@@ -54,7 +55,10 @@ motor = Exercise("motor", "A motor that waits", scenarios=[
     Scenario(trusting("yard"), 11, 1, [MotorManager], name="rounds"),
     Scenario(trusting("yard"), 11, 4, [MotorManager], name="rounds"),
     Scenario(trusting("yard"), 7, 1, [StrictManager], name="refused"),
-])
+], variants=Variants(
+    {"period": (0.1, 0.05, 0.2), "rate": (10, 20, 5), "often": ("ten", "twenty", "five")},
+    texts=("{often} times a second", "create_timer({period}, "),
+))
 
 
 class Activation(NamedTuple):
@@ -115,10 +119,11 @@ def cleans_up(run: Recording) -> None:
     for one in _activations(run):
         sent = Window(one.begin, one.end).rows(run.messages(OUT))
         rate = len(sent) / (one.end - one.begin)
-        if not FEWEST <= rate <= MOST:
-            expected = f"10 Hz on {OUT} in the activation at {one.begin:.3g} s"
+        wanted = motor.drawn.rate
+        if not FEWEST * wanted <= rate <= MOST * wanted:
+            expected = f"{wanted} Hz on {OUT} in the activation at {one.begin:.3g} s"
             again = one.begin > _activations(run)[0].begin
-            raise Missed(expected, f"{rate:.2g} Hz", UNDO if again else PERIOD)
+            raise Missed(expected, f"{rate:.2g} Hz", UNDO if again else PERIOD.format(**vars(motor.drawn)))
 
 
 @motor.check(2, after=is_managed, only="refused")
@@ -131,6 +136,11 @@ def refuses_a_wrong_speed(run: Recording) -> None:
             if not is_refusal(call) and not _is_refused(wanted):
                 expected = f"success=False for {_text(call)}{text}"
                 raise Missed(expected, "no answer" if call.response is None else "success=True", REFUSE)
+            whole = Window(call.requested, call.answered or run.ended.stamp)
+            raised = next((error for error in run.errors if whole.contains(error.stamp)), None)
+            if raised:
+                expected = f"FAILURE for {_text(call)}{text}"
+                raise Missed(expected, f"an exception, {raised.type}", REFUSE)
         elif _label(call) in ("configure", "activate"):
             _speed(run, call)
             _is_accepted(call, text, RIGHT_SPEED)

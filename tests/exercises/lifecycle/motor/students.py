@@ -670,6 +670,15 @@ class ReturnsTrue(Motor):
         return super().on_configure(state) == SUCCESS
 
 
+class RaisesForAWrongSpeed(Motor):
+    """An exception is an ERROR; on_error takes the node back to unconfigured."""
+
+    def on_configure(self, state):
+        if not 0.0 < self.read() <= 0.5:
+            raise ValueError("no speed for this motor")
+        return super().on_configure(state)
+
+
 class FinalizedByAnError(Motor):
     """Raises for a wrong speed, and on_error doesn't take it back."""
 
