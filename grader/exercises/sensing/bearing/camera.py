@@ -1,5 +1,6 @@
 """A camera that looks at posts of several colors, and draws each of its pictures from the run's seed."""
 
+import array
 import functools
 import itertools
 import random
@@ -99,7 +100,7 @@ def message(pixels: np.ndarray, layout: Format) -> Image:
     rows = ordered.reshape(height, 3 * width)
     padding = np.resize(np.array(RED, np.uint8), (height, layout.padding))
     image = Image(height=height, width=width, encoding=layout.encoding, step=3 * width + layout.padding)
-    image.data = np.hstack([rows, padding]).tobytes()
+    image.data = array.array("B", np.hstack([rows, padding]).tobytes())  # of bytes, each would be checked
     return image
 
 
