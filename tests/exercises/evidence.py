@@ -24,7 +24,10 @@ from sim import Recording
 ROOT = Path(__file__).parents[2]
 KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
 LEAST = 0.2  # s of computing: a run that takes less is not worth a file
-ENGINE = ("sim", "ros_packages", "requirements.lock")
+WHOLE = ("sim", "ros_packages", "requirements.lock")
+SHOW = "view", "standalone", "README.md", "TUTORIALS.md", "__pycache__"  # of sim: they only show recordings
+RUN = sorted({path.name for path in (ROOT / "sim").iterdir()} - {*SHOW})
+ENGINE = *WHOLE[1:], *(f"sim/{name}" for name in RUN)
 COURSE = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py")
 COURSE += "grader/orders.py", "grader/workspace"
 COURSE += "grader/companions", "grader/worlds", "grader/geometry"
@@ -67,7 +70,7 @@ class Evidence:
     @classmethod
     def of_notebooks(cls, folder: str, assignment: str) -> Evidence:
         """A notebook that was run, of the folder solutions, exercises or course."""
-        return cls(f"{folder}-{assignment}", *ENGINE, "grader", f"{folder}/{assignment}")
+        return cls(f"{folder}-{assignment}", *WHOLE, "grader", f"{folder}/{assignment}")
 
     def get(self, name: str, make: Callable[[], Any]) -> Any:
         """What is kept under a name; else it is made, and kept if that took some computing."""
