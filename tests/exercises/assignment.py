@@ -40,6 +40,9 @@ DESIGN = re.compile(
     r'^(?:class|def) (\w+)\b[^\n]*:\n    """A design of its own: |^(\w+) = [^\n]*# a design of its own', re.M
 )
 FIRST_WITH_DESIGNS = "03"
+# What a page says that a node misses.
+SHOWN = re.compile(r"^- (.*)$", re.M)
+SHOWN_WITH_HINT = re.compile(r"^- (.*)\n  Expected: .*\n  Saw: (?:.*\n)*?  Hint:(.*)$", re.M)
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
 
@@ -107,27 +110,29 @@ class Assignment:
 
     @classmethod
     @functools.cache
-    def telling(cls, exercise: str) -> list[str]:
-        """A right node, and as few wrong ones as miss every sentence of the page: those with most first."""
-        missed = {
-            name: {line for line in text.splitlines() if line.startswith("- ")}
+    def daily(cls, exercise: str) -> list[str]:
+        """The nodes that each run of the tests looks at.
+
+        The right ones, and as few wrong ones as together show every sentence with each of its hints. For a
+        slow exercise one right one, and as few wrong ones as miss every sentence.
+        """
+        judge, right = cls.judge(exercise), cls.right(exercise)
+        slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
+        shows = {
+            name: set(SHOWN.findall(text) if slow else SHOWN_WITH_HINT.findall(text))
             for name, text in page(cls.topic(), exercise).items()
         }
-        names, left = cls.right(exercise)[:1], set().union(*missed.values())
+        names, left = right[: 1 if slow else None], set().union(*shows.values())
         while left:
-            names.append(max(missed, key=lambda name: len(missed[name] & left)))
-            left -= missed[names[-1]]
-        return names
+            names.append(max(shows, key=lambda name: len(shows[name] & left)))
+            left -= shows[names[-1]]
+        return names[: 3 if simulated(judge) >= LONGEST else None]
 
     @classmethod
     def row(cls, exercise: str, node: str) -> Any:
         """A node's place in the table, with the marks that say when it is run."""
         first, reported = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
-        judge = cls.judge(exercise)
-        slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
-        daily = cls.telling(exercise)[: 3 if simulated(judge) >= LONGEST else None]
-        rare = slow and node not in daily
-        marks = [pytest.mark.soak] if rare else []
+        marks = [] if node in cls.daily(exercise) else [pytest.mark.soak]
         marks += [pytest.mark.pythons] if node in first or RAISED.search(reported) else []
         return pytest.param(exercise, node, marks=marks)
 
