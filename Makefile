@@ -1,12 +1,13 @@
 # Every target sets up .venv by itself; a second call is quick.
 #   make PYTHON=/path/to/python3.13 ...   another Python
 #   make VENV=.venv311 ...                another virtual environment
+#   make DISTRO=kilted ...                another ROS distribution, in .venv-kilted
 
-VENV ?= .venv
+VENV ?= .venv$(addprefix -,$(DISTRO))
 BIN = $(abspath $(VENV))/bin
 COMPILED = $(shell find ros_packages/interfaces sim/world/rays -type f -not -path '*/__pycache__/*' -not -path '*/build/*')
 
-export PYTHON WHEELS
+export PYTHON WHEELS DISTRO
 # Equal runs need equal dictionary orders and equal sums on every machine.
 export PYTHONHASHSEED = 0
 export OPENBLAS_NUM_THREADS = 1
@@ -109,6 +110,7 @@ lock: tools  ## take the newest versions into requirements.lock and its like
 	$(COMPILE) --group build --extra lab pyproject.toml --output-file requirements.lock
 	$(COMPILE) --group tools --constraint requirements.lock --output-file .ci/tools.lock
 	$(COMPILE) --group hub --constraint requirements.lock --constraint .ci/tools.lock --output-file .ci/hub.lock
+	$(COMPILE) --group kilted --output-file .ci/kilted.lock
 	$(COMPILE) --group site --output-file .ci/site.lock
 	$(COMPILE) --group install --constraint .ci/tools.lock --output-file .ci/uv.txt
 

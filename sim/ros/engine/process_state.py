@@ -20,7 +20,8 @@ import rclpy
 import rclpy.context
 import rclpy.utilities
 from rclpy.context import Context
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+
+from sim.ros.rclpy_cpp import cpp
 
 
 class SeededRandom:
@@ -112,7 +113,7 @@ class RclpyState:
         self.context = Context()
         # The other side's levels: the user's while rclpy is lent, the run's while it isn't.
         self.log_levels: dict[str, int] = {}
-        self._users_default = self._default = _rclpy.rclpy_logging_get_logger_level("")
+        self._users_default = self._default = cpp.rclpy_logging_get_logger_level("")
         self._runs_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
 
     @contextlib.contextmanager
@@ -130,14 +131,14 @@ class RclpyState:
 
     def level_is_set(self, logger: str) -> None:
         """Store the user's level of a logger that gets another one now."""
-        self.log_levels.setdefault(logger, _rclpy.rclpy_logging_get_logger_level(logger))
+        self.log_levels.setdefault(logger, cpp.rclpy_logging_get_logger_level(logger))
 
     def set_default_level(self, level: int | None) -> None:
         """Set the level of loggers without one of their own; None: the user's."""
         level = self._users_default if level is None else level
         if level != self._default:
             self.level_is_set("")
-            _rclpy.rclpy_logging_set_logger_level("", level)
+            cpp.rclpy_logging_set_logger_level("", level)
             self._default = level
 
     def forget_contexts(self, but: int) -> None:
@@ -146,5 +147,5 @@ class RclpyState:
 
     def _swap_log_levels(self) -> None:
         for logger, level in self.log_levels.items():
-            self.log_levels[logger] = _rclpy.rclpy_logging_get_logger_level(logger)
-            _rclpy.rclpy_logging_set_logger_level(logger, level)
+            self.log_levels[logger] = cpp.rclpy_logging_get_logger_level(logger)
+            cpp.rclpy_logging_set_logger_level(logger, level)

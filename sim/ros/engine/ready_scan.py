@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 from rclpy.action import ActionClient, ActionServer
 from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
 from sim.evidence import SPUN
@@ -18,13 +17,14 @@ from sim.ros.engine.ready_order import ReadyOrder
 from sim.ros.engine.service_work import is_called, response_work, service_work
 from sim.ros.engine.waitables import is_ready
 from sim.ros.fibers.waiter import Waiter
+from sim.ros.rclpy_cpp import cpp
 from sim.ros.recorder.records import ActionRecord, ServiceRecord
 from sim.ros.transport.action_endpoints import take_at_client, take_at_server
 from sim.ros.transport.middleware import MiddlewareReader
 from sim.ros.transport.reader import DataReader
 from sim.ros.transport.service_transport import ServiceTransport
 
-RCLError = _rclpy.RCLError
+RCLError = cpp.RCLError
 # What an event of the middleware counts: matched or incompatible endpoints.
 CHANGES = "total_count_change", "current_count_change", "alive_count_change", "not_alive_count_change"
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly

@@ -21,7 +21,6 @@ import rclpy.utilities
 from rclpy.action import ActionClient, ActionServer
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 
@@ -32,6 +31,7 @@ from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.lenient import lenient_fields
+from sim.ros.rclpy_cpp import cpp
 
 
 class SharedContext:
@@ -43,7 +43,7 @@ class SharedContext:
         if process.borrowed_init is None:
             process.borrowed_init = False
         words = list(arguments)
-        _rclpy.rclpy_remove_ros_args(words)  # refuses what ROS can't read
+        cpp.rclpy_remove_ros_args(words)  # refuses what ROS can't read
         process.global_arguments = words[words.index("--ros-args") :] if "--ros-args" in words else []
         process.set_log_levels()
 
@@ -54,7 +54,7 @@ class SharedContext:
     def shutdown(self) -> None:
         """Work like rcl's context, for this process alone."""
         if not self.alive:
-            raise _rclpy.RCLError("failed to shutdown: rcl_shutdown already called on the given context")
+            raise cpp.RCLError("failed to shutdown: rcl_shutdown already called on the given context")
         self.alive = False
         self.process.scheduler.wake_all()
 

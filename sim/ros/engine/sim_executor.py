@@ -22,7 +22,6 @@ from rclpy.executors import (
     TimeoutException,
     TimeoutObject,
 )
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Future, Task
 
 from sim.evidence import TAKEN_OVER
@@ -33,8 +32,9 @@ from sim.ros.engine.ready_scan import ReadyScan
 from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.waiter import NEVER, Waiter
+from sim.ros.rclpy_cpp import cpp
 
-RCLError = _rclpy.RCLError
+RCLError = cpp.RCLError
 NOT_VALID = "the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.context import Context
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+
+from sim.ros.rclpy_cpp import cpp
 
 
 def is_ready(waitable: Any, context: Context) -> bool:
@@ -21,7 +22,7 @@ def is_ready(waitable: Any, context: Context) -> bool:
             " keep guard conditions, services and clients."
         )
     with waitable, context.handle:
-        wait_set = _rclpy.WaitSet(
+        wait_set = cpp.WaitSet(
             0, sizes.num_guard_conditions, 0, sizes.num_clients, sizes.num_services, 0, context.handle
         )
         wait_set.clear_entities()

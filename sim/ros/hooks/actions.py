@@ -11,7 +11,6 @@ from typing import Any
 
 from rclpy.action import ActionClient, ActionServer
 from rclpy.action.server import ServerGoalHandle
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -19,6 +18,7 @@ from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.contexts import INVALID, is_shut_down, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
+from sim.ros.rclpy_cpp import cpp
 from sim.ros.recorder.action_goals import key
 
 
@@ -59,11 +59,11 @@ def _counted(original: Callable) -> Callable:
 
 
 for _owner, _names in (
-    (_rclpy.ActionServer, ("send_goal_response", "send_cancel_response", "send_result_response")),
-    (_rclpy.ActionServer, ("publish_feedback", "publish_status")),
-    (_rclpy.ActionClient, ("send_cancel_request", "send_result_request")),
-    (_rclpy.Service, ("service_send_response",)),
-    (_rclpy.Publisher, ("publish_raw",)),
+    (cpp.ActionServer, ("send_goal_response", "send_cancel_response", "send_result_response")),
+    (cpp.ActionServer, ("publish_feedback", "publish_status")),
+    (cpp.ActionClient, ("send_cancel_request", "send_result_request")),
+    (cpp.Service, ("service_send_response",)),
+    (cpp.Publisher, ("publish_raw",)),
 ):
     for _name in _names:
         hook(_owner, _name, "endpoints of actions are polled only when something was sent")(_counted)
@@ -88,7 +88,7 @@ def send_goal_async(original: Callable) -> Callable:
     return send_goal_async
 
 
-@hook(_rclpy.ActionClient, "send_goal_request", "a goal that is sent before discovery is lost")
+@hook(cpp.ActionClient, "send_goal_request", "a goal that is sent before discovery is lost")
 def send_goal_request(original: Callable) -> Callable:
     def send_goal_request(self: Any, request: Any) -> int:
         run = engine()

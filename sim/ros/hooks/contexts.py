@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from rclpy.context import Context
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 
 from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.scheduler import engine
+from sim.ros.rclpy_cpp import cpp
 
 INVALID = "rcl node's context is invalid"
 
@@ -20,4 +20,4 @@ def is_shut_down(context: Context | None) -> bool:
 def require_context(node: Node, failed: str, reason: str = INVALID) -> None:
     """Raise RCLError in a run if the node's program has shut rclpy down. failed: what can't be done."""
     if is_shut_down(getattr(node, "_context", None)):  # Node.__init__ may not have been called
-        raise _rclpy.RCLError(f"{failed}: {reason}")
+        raise cpp.RCLError(f"{failed}: {reason}")

@@ -12,7 +12,6 @@ from typing import Any
 import rclpy.logging
 from rclpy.duration import Duration
 from rclpy.impl import rcutils_logger
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
@@ -25,6 +24,7 @@ from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.contexts import require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
+from sim.ros.rclpy_cpp import cpp
 
 LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history is full; measured with Fast DDS
 FOR_EVER = Duration(seconds=-1)
@@ -100,7 +100,7 @@ def _require_context(publisher: Publisher, failed: str) -> None:
     """Work like `require_context`, with the words of a publisher."""
     writer = publisher.__dict__.get("_sim")
     if writer is not None and not writer.context.alive and engine() is not None:
-        raise _rclpy.RCLError(f"{failed}: publisher's context is invalid")
+        raise cpp.RCLError(f"{failed}: publisher's context is invalid")
 
 
 @hook(Publisher, "publish", "every message is recorded as the bytes that are sent")
@@ -112,7 +112,7 @@ def publish(original: Callable) -> Callable:
             return original(self, msg)
         msg = convert_float_message(msg, self.msg_type)
         if isinstance(msg, self.msg_type):
-            raw = _rclpy.rclpy_serialize(msg, self.msg_type)
+            raw = cpp.rclpy_serialize(msg, self.msg_type)
         elif isinstance(msg, bytes):
             raw = msg
         else:
@@ -125,7 +125,7 @@ def publish(original: Callable) -> Callable:
             what = f"room in the history of {writer.topic}"
             run.wait(what, ready=outgoing.has_room, until=run.now + LONGEST_BLOCKING)
             if not outgoing.has_room():
-                raise _rclpy.RCLError("Failed to publish: cannot publish data")
+                raise cpp.RCLError("Failed to publish: cannot publish data")
         writer.publish(raw)
         run.count_call("messages")
         return None
@@ -191,7 +191,7 @@ def destroy_subscription(original: Callable) -> Callable:
     return destroy
 
 
-@hook(_rclpy.Destroyable, "destroy_when_not_in_use", "its proxy in another process is destroyed with it")
+@hook(cpp.Destroyable, "destroy_when_not_in_use", "its proxy in another process is destroyed with it")
 def destroy_handle(original: Callable) -> Callable:
     def destroy_when_not_in_use(self: Any) -> None:
         original(self)
@@ -203,7 +203,7 @@ def destroy_handle(original: Callable) -> Callable:
 
 
 @hook(
-    _rclpy,
+    cpp,
     "rclpy_logging_rcutils_log",
     "log lines go to the recording, with simulated stamps, and never to stderr",
 )

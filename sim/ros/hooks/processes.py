@@ -7,7 +7,6 @@ from typing import Any
 
 import rclpy
 from rclpy.context import Context
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -16,15 +15,16 @@ from sim.ros.engine.running_program import SharedContext
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 from sim.ros.parameter_sources import competing_values
+from sim.ros.rclpy_cpp import cpp
 
 
-@hook(_rclpy, "Context", "two real contexts of one process would not discover each other")
+@hook(cpp, "Context", "two real contexts of one process would not discover each other")
 def make_context(original: Callable) -> Callable:
     def make(arguments: Sequence[str], domain_id: int) -> Any:
         run = engine()
         if run is None:
             return original(arguments, domain_id)
-        if domain_id not in (0, _rclpy.RCL_DEFAULT_DOMAIN_ID):
+        if domain_id not in (0, cpp.RCL_DEFAULT_DOMAIN_ID):
             raise ValueError(
                 "All programs of a run share one ROS domain and receive each other's messages: "
                 f"leave out domain_id={domain_id}."
@@ -122,7 +122,7 @@ def register_callback(original: Callable) -> Callable:
     return __register_callback
 
 
-@hook(_rclpy, "rclpy_logging_set_logger_level", "a level set in one run must not last until the next")
+@hook(cpp, "rclpy_logging_set_logger_level", "a level set in one run must not last until the next")
 def set_logger_level(original: Callable) -> Callable:
     def set_level(name: str, level: Any, *more: Any) -> Any:
         run = engine()

@@ -6,9 +6,7 @@ sentence, instead of failing somewhere in a run.
 
 from __future__ import annotations
 
-import re
 from types import ModuleType
-from typing import Any
 
 import rclpy
 import rclpy.context
@@ -23,7 +21,6 @@ from rclpy.event_handler import EventHandler
 from rclpy.executors import Executor, MultiThreadedExecutor
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl import rcutils_logger
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.parameter_service import ParameterService
 from rclpy.subscription import Subscription
@@ -32,6 +29,8 @@ from rclpy.time import Time
 from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.waitable import Waitable
+
+from sim.ros.rclpy_cpp import NODE_ARGUMENTS, cpp, takes
 
 ATTRIBUTES: dict[type, tuple[str, ...]] = {
     ActionClient: (
@@ -73,7 +72,7 @@ VARIABLES: tuple[tuple[ModuleType, tuple[str, ...]], ...] = (
     (rclpy.context, ("g_logging_ref_count",)),
     (rclpy.utilities, ("g_default_context",)),
     (rcutils_logger, ("_find_caller", "_internal_callers")),
-    (_rclpy, ("RCL_DEFAULT_DOMAIN_ID", "RCLError", "RMWError", "UnsupportedEventTypeError")),
+    (cpp, ("RCL_DEFAULT_DOMAIN_ID", "RCLError", "RMWError", "UnsupportedEventTypeError")),
 )
 # C++ functions, with the number of arguments that they are called with; `self` doesn't count.
 FUNCTIONS: dict[str, int] = {
@@ -84,7 +83,7 @@ FUNCTIONS: dict[str, int] = {
     "Clock.set_ros_time_override": 1,
     "Clock.set_ros_time_override_is_enabled": 1,
     "Destroyable.destroy_when_not_in_use": 0,
-    "Node.__init__": 6,
+    "Node.__init__": NODE_ARGUMENTS,
     "Publisher.__init__": 4,
     "Publisher.publish_raw": 1,
     "Publisher.wait_for_all_acked": 1,
@@ -118,8 +117,8 @@ def missing() -> list[str]:
         found += [f"{owner.__module__}.{owner.__qualname__}.{name}" for name in names if name not in known]
     for module, names in VARIABLES:
         found += [f"{module.__name__}.{name}" for name in names if name not in vars(module)]
-    changed = [name for name, count in FUNCTIONS.items() if not _takes(name, count)]
-    return found + [f"{_rclpy.__name__}.{name}" for name in changed]
+    changed = [name for name, count in FUNCTIONS.items() if not takes(name, count)]
+    return found + [f"{cpp.__name__}.{name}" for name in changed]
 
 
 def _attributes(owner: type) -> set[str]:
@@ -129,19 +128,3 @@ def _attributes(owner: type) -> set[str]:
         for function in (member, getattr(member, "fget", None), getattr(member, "fset", None)):
             found.update(getattr(getattr(function, "__code__", None), "co_names", ()))
     return found
-
-
-def _takes(name: str, count: int) -> bool:
-    """Return whether a C++ function takes so many arguments, by the signature in its docstring."""
-    function: Any = _rclpy
-    for part in name.split("."):
-        function = getattr(function, part, None)
-    signatures = re.findall(r"^(?:\d+\. )?\w+\((.*)\) -> ", getattr(function, "__doc__", None) or "", re.M)
-    return any(_fits(signature, count) for signature in signatures)
-
-
-def _fits(signature: str, count: int) -> bool:
-    """Return whether the arguments of one overload, as pybind11 writes them, can be so many."""
-    names = re.findall(r"(?:^|, )(\w+): ", signature)
-    most = len(names) - names.count("self")
-    return most - signature.count(" = ") <= count <= most

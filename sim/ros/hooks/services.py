@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.client import Client
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 from rclpy.service import Service
@@ -17,13 +16,14 @@ from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.contexts import INVALID, is_shut_down, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
+from sim.ros.rclpy_cpp import cpp
 
 
 def _seek(node: Node, service: Any) -> None:
     """Create the proxies of another process first: an endpoint with another type is refused."""
     run = engine()
     if run is not None and run.transport.peer is not None:
-        with contextlib.suppress(_rclpy.RCLError, TypeError):  # not a name: rclpy raises later
+        with contextlib.suppress(cpp.RCLError, TypeError):  # not a name: rclpy raises later
             run.transport.peer.seek(node.resolve_service_name(service))
 
 
@@ -104,7 +104,7 @@ def create_client(original: Callable) -> Callable:
 
 
 @hook(
-    _rclpy.Client,
+    cpp.Client,
     "send_request",
     "a request before discovery is lost; and services are polled only when a request was sent",
 )
@@ -143,7 +143,7 @@ def call_async(original: Callable) -> Callable:
 def service_is_ready(original: Callable) -> Callable:
     def service_is_ready(self: Client) -> bool:
         if is_shut_down(self.context):
-            raise _rclpy.RCLError(f"failed to check service availability: {INVALID}")
+            raise cpp.RCLError(f"failed to check service availability: {INVALID}")
         ready = original(self)
         if engine() is not None and ready and "_sim" in self.__dict__:
             self._sim.server_seen = True

@@ -14,7 +14,8 @@ from sim.distro import RCLPY_DISTRIBUTION
 from sim.ros.hooks.rclpy_internals import missing
 from sim.ros.hooks.table import Hook
 
-WRITTEN_FOR = {"rclpy": "7.1.6", "numpy": "2.4.6", "Python": "3.11 to 3.14"}
+RCLPY_OF = {"jazzy": "7.1.6", "kilted": "9.1.2"}  # the version of each ROS distribution that a run supports
+WRITTEN_FOR = {"rclpy": " and ".join(RCLPY_OF.values()), "numpy": "2.4.6", "Python": "3.11 to 3.14"}
 _DISTRIBUTIONS = {"rclpy": RCLPY_DISTRIBUTION, "numpy": "numpy"}
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 

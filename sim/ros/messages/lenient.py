@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from numbers import Integral, Real
 from typing import Any
 
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from std_msgs.msg import Float32, Float64
 
+from sim.ros.rclpy_cpp import cpp
 from sim.suggestions import closest_ros_name
 
 _INTERFACES = re.compile(r"\w+\.(msg|srv|action)\._\w+")
@@ -75,7 +75,7 @@ def create_with_matching_type(make: Callable[[Any], Any], msg_type: Any) -> Any:
     """
     try:
         return make(msg_type)
-    except _rclpy.RCLError:
+    except cpp.RCLError:
         if not _active or msg_type not in _OTHER:
             raise
         return make(_OTHER[msg_type])

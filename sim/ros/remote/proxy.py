@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rclpy.exceptions import InvalidHandle
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.rclpy_cpp import cpp, new_node
 from sim.ros.remote import events
 from sim.ros.transport.endpoint import Sample
 from sim.ros.transport.qos import NO_LIMIT
@@ -24,7 +24,7 @@ from sim.ros.transport.writer import DataWriter
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
 
-RCLError = _rclpy.RCLError
+RCLError = cpp.RCLError
 
 
 class ProxyNode:
@@ -33,10 +33,10 @@ class ProxyNode:
     def __init__(self, engine: Engine, namespace: str, name: str) -> None:
         context = engine.rclpy.context.handle
         with context:
-            self.handle = _rclpy.Node(name, namespace, context, None, False, False)
+            self.handle = new_node(name, namespace, context)
         self.name = self.handle.get_fully_qualified_name()
         # Every node has this service. C++ makes it for real nodes; this one never responds.
-        self._description = _rclpy.TypeDescriptionService(self.handle)
+        self._description = cpp.TypeDescriptionService(self.handle)
         self.endpoints: set[int] = set()
         self.network = engine.transport.services
 
@@ -65,7 +65,7 @@ class Proxy:
 class ProxyPublisher(Proxy):
     """Publishes here what the publisher of the other process has published."""
 
-    handle_class = _rclpy.Publisher
+    handle_class = cpp.Publisher
     writer: DataWriter
 
 
@@ -108,7 +108,7 @@ class ProxySubscription(Proxy):
     reader: on a simulated network. created_at, program: as those of a `TopicEndpoint`.
     """
 
-    handle_class = _rclpy.Subscription
+    handle_class = cpp.Subscription
     reader: ProxyReader | None = None
     created_at: Nanoseconds = 0
     program = None
@@ -131,7 +131,7 @@ class ProxySubscription(Proxy):
 class ProxyService(Proxy):
     """Takes the requests sent in this process, and sends the responses of the other process."""
 
-    handle_class = _rclpy.Service
+    handle_class = cpp.Service
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
@@ -157,7 +157,7 @@ class ProxyService(Proxy):
 class ProxyClient(Proxy):
     """Sends the requests of a client of the other process to services of this one."""
 
-    handle_class = _rclpy.Client
+    handle_class = cpp.Client
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)

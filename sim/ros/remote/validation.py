@@ -9,13 +9,13 @@ from importlib.util import find_spec
 from typing import Any
 
 from rclpy.duration import Duration
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.type_support import check_for_type_support
 
 from sim.ros.messages.cdr import Canonical, is_canonical
 from sim.ros.messages.codec import encode, message_class, type_name
 from sim.ros.messages.decoder import decode_message
+from sim.ros.rclpy_cpp import cpp
 
 MAX_TEXT_LENGTH = 20_000  # characters of a log line or another text; the rest is cut off
 MAX_TOTAL_TEXT = 100_000_000  # characters of all texts of a run
@@ -111,7 +111,7 @@ def valid_message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
             raise TypeError("a message is bytes")
         decoded = decode_message(cls, value)
         return decoded, encode(decoded)
-    except (TypeError, ValueError, _rclpy.RMWError):
+    except (TypeError, ValueError, cpp.RMWError):
         raise ProtocolError(f"{what} that is not of type {type_name(cls)}") from None
 
 
@@ -133,7 +133,7 @@ def valid_interface(name: str, kind: str) -> type:
             raise ImportError
         cls = message_class(name)
         check_for_type_support(cls)
-    except (ImportError, AttributeError, _rclpy.UnsupportedEventTypeError):
+    except (ImportError, AttributeError, cpp.UnsupportedEventTypeError):
         raise ProtocolError(f"the type {name}, which is not installed here") from None
     return cls
 

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from rclpy.event_handler import EventHandler
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
 from sim.ros.fibers.waiter import Waiter
 from sim.ros.messages.decoder import decode_message
+from sim.ros.rclpy_cpp import cpp
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.endpoint import Sample, TopicEndpoint
 from sim.ros.transport.qos import FOREVER, queue_length
@@ -48,7 +48,7 @@ class DataReader(TopicEndpoint):
         subscriber: str = "",
         events: Iterable[EventHandler] = (),
     ) -> None:
-        find = _rclpy.rclpy_get_subscriptions_info_by_topic
+        find = cpp.rclpy_get_subscriptions_info_by_topic
         super().__init__(run, node, handle, topic, profile, find, on_close)
         self.message_class, self.raw, self.subscriber = type_, raw, subscriber
         self.queue: deque[Sample] = deque(maxlen=queue_length(profile))
@@ -87,7 +87,7 @@ class DataReader(TopicEndpoint):
                 return Sample(bytes(raw), stamp, number)
             try:
                 return Sample(decode_message(self.message_class, raw), stamp, number)
-            except _rclpy.RMWError:  # bytes that are no message: ROS drops them, too
+            except cpp.RMWError:  # bytes that are no message: ROS drops them, too
                 continue
         return None
 

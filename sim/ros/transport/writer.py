@@ -8,12 +8,12 @@ from functools import partial
 from typing import Any, Protocol
 
 from rclpy.event_handler import EventHandler
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from sim.nanoseconds import Nanoseconds
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
+from sim.ros.rclpy_cpp import cpp
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.endpoint import PublisherEndpoint, Sample, TopicEndpoint
 from sim.ros.transport.outgoing import OutgoingChannels
@@ -57,7 +57,7 @@ class DataWriter(PublisherEndpoint):
         from_course: bool = False,
         events: Iterable[EventHandler] = (),
     ) -> None:
-        find = _rclpy.rclpy_get_publishers_info_by_topic
+        find = cpp.rclpy_get_publishers_info_by_topic
         super().__init__(run, node, handle, topic, profile, find, on_close)
         self.sender, self.from_course = sender, from_course
         self.type = type_name(type_)

@@ -28,12 +28,23 @@ from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
 from sim import run
+from sim.distro import DISTRO, RCLPY_DISTRIBUTION
 from sim.ros.hooks import rclpy_internals, verify
 from sim.ros.hooks.install import install
 from sim.ros.hooks.table import HOOKS, Hook
-from sim.ros.hooks.verify import WRITTEN_FOR, HookError, check_arguments, check_internals, original_of
+from sim.ros.hooks.verify import (
+    RCLPY_OF,
+    WRITTEN_FOR,
+    HookError,
+    check_arguments,
+    check_internals,
+    original_of,
+)
+from sim.ros.rclpy_cpp import NODE_ARGUMENTS
 from tests.patience import PATIENCE, until
 from tests.students.engine import mains, timing
+
+COURSE = Path(__file__).parents[3]
 
 
 @pytest.fixture
@@ -79,7 +90,7 @@ def fit(hook):
 
 
 def test_a_place_that_rclpy_has_renamed_is_named_with_both_versions(monkeypatch):
-    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    monkeypatch.setattr(verify, "version", {RCLPY_DISTRIBUTION: "8.0.0"}.__getitem__)
     with pytest.raises(HookError) as caught:
         fit(Hook(rclpys(), "create_timer", "the graph", lambda original: None))
     assert str(caught.value) == (
@@ -101,7 +112,7 @@ def test_a_place_that_rclpy_has_renamed_is_named_with_both_versions(monkeypatch)
     ],
 )
 def test_other_arguments_than_a_hook_was_written_for_are_named(monkeypatch, now, of_the_hook, words):
-    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    monkeypatch.setattr(verify, "version", {RCLPY_DISTRIBUTION: "8.0.0"}.__getitem__)
     owner = rclpys(create_timer=eval(f"lambda {now}: None"))
     with pytest.raises(HookError) as caught:
         fit(Hook(owner, "create_timer", "the graph", lambda original: eval(f"lambda {of_the_hook}: None")))
@@ -129,10 +140,9 @@ def test_a_hook_that_does_not_fit_is_said_on_import_and_none_is_installed():
         "print(time.sleep is sleep)\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE)
-    rclpy_version = WRITTEN_FOR["rclpy"]
     assert (done.stdout, done.stderr) == (
-        f"A run reaches into rclpy.node.Node.create_timer, which rclpy {rclpy_version} does not have: "
-        f"this course was written for rclpy {rclpy_version}.\nTrue\n",
+        f"A run reaches into rclpy.node.Node.create_timer, which rclpy {RCLPY_OF[DISTRO]} does not have: "
+        f"this course was written for rclpy {WRITTEN_FOR['rclpy']}.\nTrue\n",
         "",
     )
 
@@ -153,13 +163,13 @@ def internals(monkeypatch):
     [
         ("ATTRIBUTES", {Node: ("_time_sources",)}, "rclpy.node.Node._time_sources"),
         ("VARIABLES", ((rclpy, ("__executors",)),), "rclpy.__executors"),
-        ("FUNCTIONS", {"Node.__init__": 7}, "rclpy._rclpy_pybind11.Node.__init__"),
+        ("FUNCTIONS", {"Node.__init__": 5}, "rclpy._rclpy_pybind11.Node.__init__"),
         ("FUNCTIONS", {"Node.create_timer": 1}, "rclpy._rclpy_pybind11.Node.create_timer"),
         ("FUNCTIONS", {"rclpy_serialize": 1}, "rclpy._rclpy_pybind11.rclpy_serialize"),
     ],
 )
 def test_what_rclpy_has_changed_beside_the_hooks_is_named(monkeypatch, internals, table, entry, name):
-    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    monkeypatch.setattr(verify, "version", {RCLPY_DISTRIBUTION: "8.0.0"}.__getitem__)
     internals(table, entry)
     with pytest.raises(HookError) as caught:
         check_internals()
@@ -174,7 +184,7 @@ def test_what_rclpy_has_changed_beside_the_hooks_is_named(monkeypatch, internals
     [
         ("ATTRIBUTES", {TimeSource: ("_clock_sub",), ActionClient: ("_is_feedback_ready",)}),
         ("VARIABLES", ((rclpy, ("__executor",)),)),
-        ("FUNCTIONS", {"Node.__init__": 6, "rclpy_serialize": 2}),
+        ("FUNCTIONS", {"Node.__init__": NODE_ARGUMENTS, "rclpy_serialize": 2}),
     ],
 )
 def test_what_is_as_it_was_is_not_named(internals, table, entry):
@@ -189,7 +199,7 @@ OF_MESSAGES = {"_check_fields"}
 
 
 def private_names(files):
-    """Private attributes that these sources use and do not define; and the names they use of `_rclpy`."""
+    """Private attributes that these sources use and do not define; and the names they use of rclpy's C++."""
     used, own, cpp = set(), set(), set()
     for file in files:
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
@@ -198,7 +208,7 @@ def private_names(files):
             elif isinstance(node, ast.AnnAssign | ast.Assign) and not isinstance(node.value, ast.Attribute):
                 own |= {name.id for name in getattr(node, "targets", [getattr(node, "target", None)])
                         if isinstance(name, ast.Name)}  # fmt: skip
-            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "_rclpy":
+            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "cpp":
                 cpp.add(node.attr)
             elif isinstance(node, ast.Attribute) and node.attr.startswith("_") and node.attr[1] != "_":
                 mine = isinstance(node.ctx, ast.Store) and ast.unparse(node.value) == "self"
@@ -217,6 +227,13 @@ def test_every_private_name_of_rclpy_that_a_run_uses_is_in_the_list():
     assert sorted(cpp - functions - listed - hooked - owners - {"__name__"}) == []
 
 
+def test_one_module_imports_rclpys_cpp_layer():
+    folders = (COURSE / name for name in ("sim", "grader", "ros_packages/python"))
+    files = [file for folder in folders for file in folder.rglob("*.py")]
+    found = [file for file in files if "implementation_singleton" in file.read_text(encoding="utf-8")]
+    assert [file.relative_to(COURSE).as_posix() for file in found] == ["sim/ros/rclpy_cpp.py"]
+
+
 def test_a_place_of_pythons_own_is_named_with_pythons_versions():
     with pytest.raises(HookError) as caught:
         fit(Hook(time, "sleeps", "sleeping takes simulated time", lambda original: None))
@@ -227,8 +244,8 @@ def test_a_place_of_pythons_own_is_named_with_pythons_versions():
 
 
 def test_the_hooks_were_written_for_the_versions_that_are_installed():
-    for name, package in (("rclpy", "ros-jazzy-rclpy"), ("numpy", "numpy")):
-        assert WRITTEN_FOR[name] == metadata.version(package)
+    assert RCLPY_OF[DISTRO] == metadata.version(RCLPY_DISTRIBUTION)
+    assert WRITTEN_FOR["numpy"] == metadata.version("numpy")
 
 
 def test_names_bound_before_sim_was_imported_go_through_the_hooks():
