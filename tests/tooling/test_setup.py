@@ -90,6 +90,13 @@ def test_an_arm_machine_with_them_needs_the_python_that_they_are_for(machine):
     )
 
 
+def test_an_unknown_distribution_is_named(machine):
+    assert machine.complaint(DISTRO="humble") == (
+        "DISTRO=humble is not a ROS distribution that the course runs on: "
+        "say kilted, or leave DISTRO out for Jazzy.\n"
+    )
+
+
 def test_wheels_of_another_python_are_named(machine):
     machine.has_wheels("3.11 3.13")
     machine.has_python("python3", "3.12")
