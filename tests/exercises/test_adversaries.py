@@ -28,6 +28,7 @@ from tests.exercises.test_navigating import TestNavigating as Navigating
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
 from tests.exercises.test_packages import TestPackages as Packages
+from tests.exercises.test_races import TestRaces as Races
 from tests.exercises.test_safety import TestSafety as Safety
 from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
@@ -40,7 +41,7 @@ from tests.exercises.test_warehouse import TestWarehouse as Warehouse
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
     *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Lifecycle),
-    *(Warehouse, Delivery, Bags, Covariance, Localization),
+    *(Warehouse, Delivery, Bags, Covariance, Localization, Races),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),
