@@ -22,8 +22,8 @@ PARTS = (
     "pace",
     "view",
 )
-# hub installs what it needs; navigator and capstone take minutes
-ON_REQUEST = ("navigator", "capstone", "hub")
+# hub installs what it needs; the others take minutes
+ON_REQUEST = ("navigator", "localized", "capstone", "hub")
 
 
 def machine() -> str:

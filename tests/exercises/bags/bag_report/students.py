@@ -1,7 +1,10 @@
 """Reports of a bag: right ones, and wrong ones named after their defect."""
 
+import bisect
 import itertools
 import statistics
+from collections import Counter
+from dataclasses import dataclass
 
 import numpy as np
 import rclpy
@@ -13,6 +16,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 from tf2_ros import Buffer, TransformListener
 
+PARTS = "_Scan", "_summary"
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -145,6 +149,205 @@ def main():
     node.create_subscription(TFMessage, "/tf_static", lambda msg: static.extend(msg.transforms), LATCHED)
     node.create_timer(1.0, report)
     rclpy.spin(node)
+
+
+class Histogram(Node):
+    """A design of its own: counts steps and ages by the millisecond, and keeps no list of scans."""
+
+    def __init__(self):
+        super().__init__("histogram")
+        self.steps, self.ages, self.statics = Counter(), Counter(), 0
+        self.last, self.longest = None, (0, 0)
+        self.out = self.create_publisher(DiagnosticStatus, "/bag_report", 10)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.create_subscription(TFMessage, "/tf_static", self.on_static, LATCHED)
+        self.create_timer(1.0, self.report)
+
+    def on_static(self, msg):
+        self.statics += len(msg.transforms)
+
+    def on_scan(self, scan):
+        measured = Time.from_msg(scan.header.stamp).nanoseconds
+        self.ages[round((self.get_clock().now().nanoseconds - measured) / 1e6)] += 1
+        if self.last is not None:
+            step = measured - self.last
+            self.steps[round(step / 1e6)] += 1
+            self.longest = max(self.longest, (step, self.last))
+        self.last = measured
+
+    def report(self):
+        if self.steps:
+            (usual, _), *_ = self.steps.most_common(1)
+            gap, begin = self.longest
+            offered = self.get_publishers_info_by_topic("/scan")[0].qos_profile.reliability
+            self.send({
+                "reliability": "reliable" if offered == ReliabilityPolicy.RELIABLE else "best_effort",
+                "rate": 1000 / usual,
+                "gap": gap / 1e9,
+                "gap_begin": begin / 1e9,
+                "age": statistics.median(self.ages.elements()) / 1000,
+                "static_transforms": self.statics,
+            })  # fmt: skip
+
+    def send(self, values):
+        status = DiagnosticStatus()
+        for key, value in values.items():
+            status.values.append(KeyValue(key=key, value=str(value)))
+        self.out.publish(status)
+
+
+@dataclass
+class _Scan:
+    measured: int
+    arrived: int
+
+    @property
+    def age(self):
+        return self.arrived - self.measured
+
+
+class AllAtOnce(Node):
+    """A design of its own: callbacks only collect; functions without a state compute everything."""
+
+    def __init__(self):
+        super().__init__("all_at_once")
+        self.scans, self.transforms = [], {}
+        self.publisher = self.create_publisher(DiagnosticStatus, "bag_report", 10)
+        self.create_subscription(LaserScan, "scan", self.scan, QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT))
+        self.create_subscription(TFMessage, "tf_static", self.tf, QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+        self.create_timer(0.25, self.tick)
+
+    def scan(self, msg):
+        self.scans.append(_Scan(Time.from_msg(msg.header.stamp).nanoseconds, self.get_clock().now().nanoseconds))
+
+    def tf(self, msg):
+        self.transforms.update({(each.header.frame_id, each.child_frame_id): each for each in msg.transforms})
+
+    def tick(self):
+        if len(self.scans) < 10:
+            return
+        infos = self.get_publishers_info_by_topic("/scan")
+        values = _summary(self.scans) | {
+            "reliability": {info.qos_profile.reliability for info in infos}.pop().name.lower(),
+            "static_transforms": len(self.transforms),
+        }
+        self.publisher.publish(DiagnosticStatus(
+            level=DiagnosticStatus.OK, name="report", message="",
+            values=[KeyValue(key=key, value=f"{value}") for key, value in values.items()],
+        ))  # fmt: skip
+
+
+def _summary(scans):
+    pairs = list(itertools.pairwise(sorted(scans, key=lambda scan: scan.measured)))
+    first, second = max(pairs, key=lambda pair: pair[1].measured - pair[0].measured)
+    return {
+        "rate": 1e9 / statistics.median(b.measured - a.measured for a, b in pairs),
+        "gap": (second.measured - first.measured) / 1e9,
+        "gap_begin": first.measured / 1e9,
+        "age": statistics.median(scan.age for scan in scans) / 1e9,
+    }
+
+
+class SortedLists(Node):
+    """A design of its own: the steps and ages are always sorted, so that the middle one is the median."""
+
+    def __init__(self):
+        super().__init__("sorted_lists")
+        self.steps, self.ages, self.count = [], [], 0
+        self.before = self.gap = self.begin = None
+        self.publisher = self.create_publisher(DiagnosticStatus, "/bag_report", 10)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.create_subscription(TFMessage, "/tf_static", self.on_static, LATCHED)
+        self.create_timer(1.0, self.report)
+
+    def on_static(self, msg):
+        for _ in msg.transforms:
+            self.count += 1
+
+    def on_scan(self, scan):
+        stamp = Time.from_msg(scan.header.stamp)
+        bisect.insort(self.ages, self.get_clock().now() - stamp)
+        if self.before is not None:
+            step = stamp - self.before
+            bisect.insort(self.steps, step)
+            if self.gap is None or step > self.gap:
+                self.gap, self.begin = step, self.before
+        self.before = stamp
+
+    def report(self):
+        if not self.steps:
+            return
+        middle, age = self.steps[len(self.steps) // 2], self.ages[len(self.ages) // 2]
+        values = {
+            "static_transforms": str(self.count),
+            "age": f"{age.nanoseconds / 1e9:.5f}",
+            "gap_begin": f"{self.begin.nanoseconds / 1e9:.4f}",
+            "gap": f"{self.gap.nanoseconds / 1e9:.4f}",
+            "rate": f"{1e9 / middle.nanoseconds:.4f}",
+        }
+        for info in self.get_publishers_info_by_topic("/scan"):
+            values["reliability"] = info.qos_profile.reliability.name.lower()
+        self.publisher.publish(DiagnosticStatus(values=[KeyValue(key=k, value=v) for k, v in values.items()]))
+
+
+class Trimmed(Report):
+    """A design of its own: the mean of the steps and ages in the middle half."""
+
+    def middle(self, numbers):
+        ordered = sorted(numbers)
+        part = len(ordered) // 4
+        return statistics.fmean(ordered[part : len(ordered) - part])
+
+    def rate(self):
+        return 1 / self.middle(self.steps())
+
+    def age(self):
+        return self.middle(b - a for a, b in zip(self.stamps, self.arrivals, strict=True))
+
+
+class WithoutTheGap(Report):
+    """A design of its own: the rate is the number of steps by their time, without those of the silence."""
+
+    def rate(self):
+        usual = min(self.steps())
+        good = [step for step in self.steps() if step < 1.5 * usual]
+        return len(good) / sum(good)
+
+
+class Collecting(Node):
+    """A design of its own: a generator receives the scans, and yields what is known so far."""
+
+    def __init__(self):
+        super().__init__("collecting")
+        self.known, self.frames = {}, []
+        self.collector = self.collect()
+        next(self.collector)
+        self.publisher = self.create_publisher(DiagnosticStatus, "/bag_report", 10)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.create_subscription(TFMessage, "/tf_static", lambda msg: self.frames.extend(msg.transforms), LATCHED)
+        self.create_timer(1.0, self.report)
+
+    def collect(self):
+        stamps, ages, known = [], [], {}
+        while True:
+            stamp, age = yield known
+            stamps.append(stamp)
+            ages.append(age)
+            if len(stamps) > 1:
+                steps = np.diff(stamps)
+                known = {"rate": 1 / np.median(steps), "gap": steps.max(), "age": np.median(ages)}
+                known["gap_begin"] = stamps[steps.argmax()]
+
+    def on_scan(self, scan):
+        stamp = scan.header.stamp.sec + scan.header.stamp.nanosec / 1e9
+        self.known = self.collector.send((stamp, self.get_clock().now().nanoseconds / 1e9 - stamp))
+
+    def report(self):
+        if self.known:
+            (offered,) = {info.qos_profile.reliability for info in self.get_publishers_info_by_topic("/scan")}
+            more = {"reliability": offered.name.lower(), "static_transforms": len(self.frames)}
+            pairs = [KeyValue(key=key, value=str(value)) for key, value in (self.known | more).items()]
+            self.publisher.publish(DiagnosticStatus(values=pairs))
 
 
 class ByTheArrivals(Report):

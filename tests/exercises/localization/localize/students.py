@@ -1,6 +1,8 @@
 """Localizations that publish where odom is: right ones, and wrong ones named after their defect."""
 
+import bisect
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import rclpy
@@ -8,6 +10,7 @@ import tf_transformations
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
 from tf2_msgs.msg import TFMessage
@@ -19,7 +22,7 @@ from tf2_ros import (
     TransformListener,
 )
 
-PARTS = ("_yaw_of",)
+PARTS = "_yaw_of", "_Frame"
 TOLERANCE = Duration(seconds=0.5)
 
 
@@ -138,6 +141,94 @@ def main_with_a_publisher():
     publisher = node.create_publisher(TFMessage, "/tf", 10)
     node.broadcaster.sendTransform = lambda sent: publisher.publish(TFMessage(transforms=[sent]))
     rclpy.spin(node)
+
+
+@dataclass(frozen=True)
+class _Frame:
+    x: float
+    y: float
+    yaw: float
+
+    def __matmul__(self, other):
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return _Frame(
+            self.x + cos * other.x - sin * other.y, self.y + sin * other.x + cos * other.y, self.yaw + other.yaw
+        )
+
+    def inverse(self):
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return _Frame(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, -self.yaw)
+
+
+class Frames(Localization):
+    """A design of its own: a small class for poses, with a product and an inverse."""
+
+    def product(self, pose, odometry):
+        found = _Frame(*pose) @ _Frame(*odometry).inverse()
+        return found.x, found.y, found.yaw
+
+
+class Quaternions(Localization):
+    """A design of its own: rotations stay quaternions, as in the messages."""
+
+    def product(self, pose, odometry):
+        turned, back = (tf_transformations.quaternion_from_euler(0.0, 0.0, each[2]) for each in (pose, odometry))
+        turn = tf_transformations.quaternion_multiply(turned, tf_transformations.quaternion_inverse(back))
+        moved = tf_transformations.quaternion_matrix(turn) @ (*odometry[:2], 0.0, 1.0)
+        yaw = tf_transformations.euler_from_quaternion(turn)[2]
+        return pose[0] - moved[0], pose[1] - moved[1], yaw
+
+
+class Awaits(Localization):
+    """A design of its own: an async callback awaits the odometry of that time."""
+
+    async def on_pose(self, msg):
+        self.report(msg)
+        stamp = Time.from_msg(msg.header.stamp)
+        found = (await self.buffer.lookup_transform_async("odom", "base_link", stamp)).transform
+        position = msg.pose.pose.position
+        pose = position.x, position.y, _yaw_of(msg.pose.pose.orientation)
+        odometry = found.translation.x, found.translation.y, _yaw_of(found.rotation)
+        self.send(self.product(pose, odometry), self.stamp(msg))
+
+
+class Interpolates(OdometryByHand):
+    """A design of its own: odometry by hand, and between two messages a mixture of both."""
+
+    def odometry(self, stamp):
+        wanted = Time.from_msg(stamp).nanoseconds
+        stamps = [row[0] for row in self.history]
+        after = min(bisect.bisect_left(stamps, wanted), len(stamps) - 1)
+        (t0, a), (t1, b) = self.history[max(after - 1, 0)], self.history[after]
+        share = min(max((wanted - t0) / (t1 - t0), 0.0), 1.0) if t1 > t0 else 0.0
+        turn = math.remainder(b[2] - a[2], math.tau)
+        return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * turn
+
+
+class SendsAgain(Localization):
+    """A design of its own: a timer sends the last correction, with the stamp of its scan, until the next."""
+
+    def __init__(self):
+        super().__init__()
+        self.last = None
+        self.create_timer(0.05, self.repeat)
+
+    def send(self, place, stamp):
+        self.last = place, stamp
+
+    def repeat(self):
+        if self.last is not None:
+            super().send(*self.last)
+            self.last = None
+
+
+def main_with_two_threads():
+    """A design of its own: a buffer that spins in a thread of its own."""
+    rclpy.init()
+    node = Localization()
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(node)
+    executor.spin()
 
 
 # -- wrong ones --
