@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.marking.errors import CourseError
-from grader.marking.extras.platforms.texts import check_text, overview
+from grader.marking.extras.platforms.texts import check_html, overview_html
 
 VISIBILITIES = ("visible", "after_due_date", "after_published", "hidden")
 STATUS = {"passed": "passed", "failed": "failed"}
@@ -53,8 +53,8 @@ def results(
     return {
         "score": data["points_after_lateness"],
         "execution_time": round(data["seconds"]),
-        "output": overview(data),
-        "output_format": "text",
+        "output": overview_html(data),
+        "output_format": "html",
         "visibility": visibility,
         "stdout_visibility": "hidden",
         "tests": [
@@ -74,7 +74,7 @@ def _test(number: str, exercise: str, check: Mapping[str, Any], visibility: str)
         "score": check["points"],
         "max_score": check["max_points"],
         **({"status": STATUS[check["status"]]} if check["status"] in STATUS else {}),
-        "output": check_text(check),
-        "output_format": "text",
+        "output": check_html(check),
+        "output_format": "html",
         "visibility": visibility,
     }

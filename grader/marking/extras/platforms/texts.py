@@ -1,5 +1,6 @@
-"""What a student reads of a result, as plain text; the same on each platform."""
+"""What a student reads of a result, as plain text or as HTML; the same on each platform."""
 
+import html
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,8 +11,12 @@ MARKS = {"passed": "passed", "failed": "failed", "skipped": "not judged", "broke
 
 def check_text(check: Mapping[str, Any]) -> str:
     """Return what was expected, what was seen and what to do next; "" for a check that passed."""
-    parts = (("Expected", check["expected"]), ("Saw", check["saw"]), ("Hint", check["hint"]))
-    return _plain("\n".join(f"{name}: {text}" for name, text in parts if text))
+    return _plain("\n".join(f"{name}: {text}" for name, text in _parts(check)))
+
+
+def check_html(check: Mapping[str, Any]) -> str:
+    """Return the same as well-formed HTML, in which nothing of a student's text is markup."""
+    return "".join(f"<p><b>{name}:</b> {_escaped(text)}</p>" for name, text in _parts(check))
 
 
 def exercise_note(exercise: Mapping[str, Any]) -> str:
@@ -27,6 +32,20 @@ def exercise_note(exercise: Mapping[str, Any]) -> str:
 
 def overview(data: Mapping[str, Any]) -> str:
     """The result as a whole: points, lateness, why something stopped, what was repaired."""
+    return _plain("\n".join(_overview_lines(data)))
+
+
+def overview_html(data: Mapping[str, Any]) -> str:
+    """Return the same as well-formed HTML, in which nothing of a student's text is markup."""
+    return "".join(f"<p>{_escaped(line)}</p>" for line in _overview_lines(data))
+
+
+def _parts(check: Mapping[str, Any]) -> list[tuple[str, str]]:
+    parts = (("Expected", check["expected"]), ("Saw", check["saw"]), ("Hint", check["hint"]))
+    return [(name, text) for name, text in parts if text]
+
+
+def _overview_lines(data: Mapping[str, Any]) -> list[str]:
     lines = [f"{data['points']:g} of {data['max_points']:g} points."]
     if data["late"] and data["late"]["penalty"]:
         late = data["late"]
@@ -41,12 +60,16 @@ def overview(data: Mapping[str, Any]) -> str:
         lines.append("Your instructor will look at some of the points.")
     if data["points_by_hand"]:
         lines.append(f"Your instructor gives up to {data['points_by_hand']:g} points more by hand.")
-    return _plain("\n".join(lines))
+    return lines
 
 
 def _plain(text: str) -> str:
     """Text without control characters: platforms make colors and links of some, in what a student printed."""
     return "\n".join(map(printable, text.split("\n")))
+
+
+def _escaped(text: str) -> str:
+    return html.escape(_plain(text)).replace("\n", "<br/>")
 
 
 def instructor_text(data: Mapping[str, Any]) -> str:

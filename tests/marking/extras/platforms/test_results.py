@@ -4,13 +4,20 @@ import json
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import jsonschema
 import pytest
 
 from grader.marking.errors import CourseError
 from grader.marking.extras.platforms import classroom50, gradescope, prairielearn
-from grader.marking.extras.platforms.texts import check_text, instructor_text, overview
+from grader.marking.extras.platforms.texts import (
+    check_html,
+    check_text,
+    instructor_text,
+    overview,
+    overview_html,
+)
 
 TEXT = {"type": "string"}
 NUMBER = {"type": "number", "minimum": 0}
@@ -108,11 +115,44 @@ def test_gradescope_gets_a_test_for_each_check_and_the_total(data):
     first, _, _, turn = found["tests"]
     assert first == {
         "number": "1.1", "name": "greeting: It greets.", "score": 5.0, "max_score": 5.0, "status": "passed",
-        "output": "", "output_format": "text", "visibility": "after_due_date",
+        "output": "", "output_format": "html", "visibility": "after_due_date",
     }  # fmt: skip
-    assert turn["output"] == "Expected: a square\nSaw: a <b>circle</b> | *\nHint: Turn by 90 degrees."
+    assert turn["output"] == (
+        "<p><b>Expected:</b> a square</p><p><b>Saw:</b> a &lt;b&gt;circle&lt;/b&gt; | *</p>"
+        "<p><b>Hint:</b> Turn by 90 degrees.</p>"
+    )
+    assert (found["output_format"], turn["output_format"]) == ("html", "html")
     assert found["stdout_visibility"] == "hidden"
     assert "leaderboard" not in found
+
+
+HOSTILE = (
+    "</p><script>alert(1)</script><img src=x onerror=\"alert(1)\"> <a href='javascript:alert(1)'>x</a>",
+    "&lt;script&gt; &amp; &#60;b> <!-- ]]> <![CDATA[ <?php <p",
+    "first\nsecond\r\n\n<br>third\x00\x1b[31m\u202e\ufffe\ud800",
+)
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_nothing_that_a_student_wrote_is_markup_on_gradescope(data, text):
+    wrong = data["exercises"][1]["checks"][1]
+    wrong |= {"expected": text, "saw": text, "hint": text}
+    data |= {"reason": text, "repairs": [text]}
+    found = json.loads(json.dumps(gradescope.results(data)))
+    jsonschema.validate(found, GRADESCOPE)
+    assert (text_of(check_html(wrong)), text_of(overview_html(data))) == (check_text(wrong), overview(data))
+    for output in (found["output"], *(test["output"] for test in found["tests"])):
+        tree = ElementTree.fromstring(f"<div>{output}</div>")
+        assert {part.tag for part in tree.iter()} <= {"div", "p", "b", "br"}
+        assert not any(part.attrib for part in tree.iter())
+
+
+def text_of(output: str) -> str:
+    """The text of some HTML, a line for each paragraph and after each line break."""
+    paragraphs = ElementTree.fromstring(f"<div>{output}</div>").findall("p")
+    for end in (end for paragraph in paragraphs for end in paragraph.iter("br")):
+        end.text = "\n"
+    return "\n".join("".join(paragraph.itertext()) for paragraph in paragraphs)
 
 
 def test_no_test_is_hidden_because_students_would_not_see_their_total_then(data):
