@@ -9,15 +9,22 @@ from grader.checks import Missed, otherwise, subscribes
 from grader.companions.joint_targets import NAMES, gymnast
 from grader.exercise import Exercise
 from grader.responses import Window, from_course
+from grader.variants import Variants
 from grader.worlds.arms import arm_of
 from sim.evidence import Recording, Seconds
 
 LINE = re.compile(rf"({'|'.join(NAMES)})[^\w-]+(-?\d+(?:\.\d+)?)")
 RECENT, NEAR = 0.15, 0.11  # s: how old a position may be; degrees
-SHORTEST, LONGEST, FIRST = 0.7, 1.3, 2.3  # s: between two lines about a joint, and until the first
+SHORTEST, LONGEST, FIRST = 0.7, 1.3, 2.3  # periods: between two lines about a joint, and until the first
 
 degrees = Exercise("degrees", "Where the joints are", world=arm_of, seconds=10, companions=gymnast,
-                   seeds=(1, 2))
+                   seeds=(1, 2), variants=Variants(
+    {"period": (1.0, 0.5), "often": ("once a second", "twice a second"),
+     "Often": ("Once a second", "Twice a second"), "every": ("second", "half second"),
+     "rate": ("one line", "two lines")},
+    texts=("{often}", "{Often}", "each joint every {every}", "asks for {rate} a second",
+           "create_timer({period}, self.show)"),
+))
 
 
 class Shown(NamedTuple):
@@ -64,15 +71,18 @@ def logs_degrees(run: Recording) -> list[Shown]:
 @degrees.check(1, after=logs_degrees)
 def once_a_second(run: Recording, shown: list[Shown]) -> None:
     """There is one line for each joint every second."""
+    period, every = degrees.drawn.period, degrees.drawn.every
     for name in NAMES:
         stamps = [row.stamp for row in shown if row.name == name]
         gaps = [(end - begin, begin) for begin, end in itertools.pairwise(stamps)]
         first, last = (stamps[0] - run.started_at, run.started_at), (run.ended.stamp - stamps[-1], stamps[-1])
-        wrong = [gap for gap in gaps if not SHORTEST <= gap[0] <= LONGEST]
-        for seconds, begin in wrong + [last] * (last[0] > LONGEST) + [first] * (first[0] > FIRST):
-            hint = "Store what comes in a dictionary, and log what it has in the callback of a timer of 1 s."
+        wrong = [gap for gap in gaps if not SHORTEST <= gap[0] / period <= LONGEST]
+        for seconds, begin in [
+                *wrong, *[last] * (last[0] > LONGEST * period), *[first] * (first[0] > FIRST * period)]:
+            hint = ("Store what comes in a dictionary, and log what it has in the callback of a timer of "
+                    f"{period:g} s.")
             saw = f"{seconds:.2g} s between two, from {begin:.3g} s on"
-            raise Missed(f"one line about {name} each second", saw, hint)
+            raise Missed(f"one line about {name} each {every}", saw, hint)
 
 
 def _shown(run: Recording) -> list[Shown]:

@@ -8,21 +8,26 @@ from grader.checks import Missed, keeps_clear, publishes, series, tenths, travel
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Recording, stamps
 from sim.ros2.system import OWN_NAME
 
 TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
-RADIUS, SPEED = 0.5, 0.3  # m, m/s
 NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and turned
 # What ros2 prints about a command that is wrong.
 COMPLAINT = re.compile(
     "error:|command not found|is not a command|can't be read|populate field|is invalid|is not what it looks"
 )
 STRAIGHT = "Driving ahead without turning ends at a wall: give both linear.x and angular.z."
-WIDE = "Radius = speed / turn. For 0.5 m at 0.3 m/s, how many rad/s is that?"
+WIDE = "Radius = speed / turn. For {} m at {} m/s, how many rad/s is that?"
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
-pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True, may_end=True)
+pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True, may_end=True,
+               variants=Variants(
+    {"radius": (0.5, 0.4, 0.5), "speed": (0.3, 0.3, 0.35), "turn": (0.6, 0.75, 0.7)},
+    texts=("{radius} m radius", "{speed} m/s", "= {radius} m · turn",
+           "{{linear: {{x: {speed}}}, angular: {{z: {turn}}}}}"),
+))
 
 
 @pub.check(3)
@@ -64,11 +69,12 @@ def comes_often_enough(run: Recording) -> None:
 def drives_the_circle(run: Recording) -> None:
     """The robot drives once around a circle of 0.5 m radius, to the left, and touches nothing."""
     turns = any(turn for _, turn in series(run, COMMANDS, "angular.z"))
-    keeps_clear(run, WIDE if turns else STRAIGHT)
-    far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
+    radius = pub.drawn.radius
+    keeps_clear(run, _wide() if turns else STRAIGHT)
+    far = [abs(math.dist((pose.x, pose.y), (0.0, radius)) - radius) for pose in run.path]
     turned, length = _turned(run), traveled(run)
     if max(far) > NEAR or not _is_round(run):
-        way = f"a path of {math.tau * RADIUS:.2f} m around a circle"
+        way = f"a path of {math.tau * radius:.2f} m around a circle"
         saw = f"a path of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
         saw += f"{max(far):.2f} m off the circle"
         hint = _why_no_circle(run, turned)
@@ -78,12 +84,12 @@ def drives_the_circle(run: Recording) -> None:
 @pub.check(2, after=drives_the_circle)
 def drives_at_the_speed(run: Recording) -> None:
     """It drives at 0.3 m/s."""
-    speeds = [speed for _, speed in series(run, COMMANDS, "linear.x")]
-    wrong = next((speed for speed in speeds if not is_near(speed, SPEED, 0.01)), None)
+    speeds, drawn = [speed for _, speed in series(run, COMMANDS, "linear.x")], pub.drawn
+    wrong = next((speed for speed in speeds if not is_near(speed, drawn.speed, 0.01)), None)
     if wrong is not None:
-        turn = f"{SPEED / RADIUS:g} rad/s"
-        hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m needs {turn}."
-        raise Missed(f"linear.x {SPEED:g}", f"{wrong:g}", hint)
+        hint = (f"Speed = radius times turn: at {drawn.speed} m/s a radius of {drawn.radius} m needs "
+                f"{drawn.turn} rad/s.")
+        raise Missed(f"linear.x {drawn.speed}", f"{wrong:g}", hint)
 
 
 def _turned(run: Recording) -> float:
@@ -94,7 +100,7 @@ def _turned(run: Recording) -> float:
 
 def _is_round(run: Recording) -> bool:
     """Return whether the robot came once round a circle, whatever its radius is."""
-    return _turned(run) >= ROUND and traveled(run) >= ROUND * RADIUS
+    return _turned(run) >= ROUND and traveled(run) >= ROUND * pub.drawn.radius
 
 
 def _how_to_read(wrong: str) -> str:
@@ -130,4 +136,8 @@ def _why_no_circle(run: Recording, turned: float) -> str:
     last = stamps(run.messages(COMMANDS))[-1]
     if last < run.ended.stamp - 2 * TIMEOUT:
         return f"The last command came at {last:.3g} s: without --times it continues until it is stopped."
-    return WIDE
+    return _wide()
+
+
+def _wide() -> str:
+    return WIDE.format(pub.drawn.radius, pub.drawn.speed)

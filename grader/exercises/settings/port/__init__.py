@@ -13,12 +13,13 @@ from grader.exercise import Exercise, Scenario
 from grader.exercises.settings.port.engine_sensor import VOLTS, engine, engine_and_gain_setter
 from grader.geometry.near import is_near
 from grader.responses import from_course
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds, since_start
 
 __all__ = ["engine", "port"]
 
 TEMPERATURE, TYPE = "/engine/temperature", "sensor_msgs/msg/Temperature"
-GAIN, STARTED, HOT = 25.0, 12.5, 80.0  # degrees for a volt, and degrees
+STARTED = 12.5  # degrees for a volt
 SET = "/thermometer/set_parameters"
 LATE = 0.06  # s after a message in which the one before it may still be used
 NEAR, SETTLED = 1e-3, 0.45  # degrees; s until a new gain or the first volts show
@@ -26,7 +27,15 @@ NEAR, SETTLED = 1e-3, 0.45  # degrees; s until a new gain or the first volts sho
 port = Exercise("port", "A program from ROS 1", scenarios=[
     Scenario(seconds=10, seed=1, companions=engine, name="default"),
     Scenario(seconds=7, seed=2, companions=engine_and_gain_setter, name="gain",
-             prepare=partial(started_with, "gain", STARTED))])
+             prepare=partial(started_with, "gain", STARTED))], variants=Variants(
+    {"gain": (25, 20, 24), "hot": (80, 63, 75)},
+    {"rate": (5, 4), "period": (0.2, 0.25), "often": ("five", "four")},
+    {"frame": ("engine", "motor", "cylinder")},
+    texts=('"~gain", {gain})', '"gain", {gain}.0)', "{gain} by default", "would `{gain}`",
+           "> {hot}", "above {hot}", "Rate({rate})", "{rate} Hz", "publishes {rate} times",
+           "temperatures {often}", "in seconds: {period}", "create_timer({period}, ",
+           'frame_id = "{frame}"', "frame {frame}"),
+))
 
 
 @port.check(1)
@@ -46,14 +55,15 @@ def _is_never_called(run: Recording, *about: Message) -> bool:
     "A loop keeps the executor from calling `receive`: rclpy runs one callback at a time, and none before "
     "`__init__` has returned. Make the body of the loop the callback of a timer.": _is_never_called,
     "That is from the volts before: store each message that arrives, and use the newest.":
-        lambda run, row: any(_is_near(row, GAIN * sent.message.data) for sent in from_course(run, VOLTS)),
+        lambda run, row: any(_is_near(row, port.drawn.gain * sent.message.data)
+                             for sent in from_course(run, VOLTS)),
     "The listing multiplies the last volts by the gain, which is 25 by default.": otherwise,
 })
 def publishes_temperatures(run: Recording) -> list[Message]:
     """Each temperature is the last volts times the gain, and there is none before the first volts."""
     rows = publishes(run, TEMPERATURE, TYPE)
     for row in rows:
-        _require_product(run, row, GAIN)
+        _require_product(run, row, port.drawn.gain)
     return rows
 
 
@@ -69,9 +79,10 @@ def five_times_a_second(run: Recording, rows: list[Message]) -> None:
     stamps = [first, *(row.stamp for row in rows), run.ended.stamp]
     hz = len(rows) / (run.ended.stamp - first)
     pause, since = max((later - stamp, stamp) for stamp, later in itertools.pairwise(stamps))
-    if not 4.4 <= hz <= 5.6 or pause > SETTLED:
+    due = port.drawn.rate
+    if not 0.88 * due <= hz <= 1.12 * due or pause > SETTLED:
         saw = f"{hz:.3g} Hz, and none for {pause:.2g} s from {since:.3g} s on"
-        raise Missed("5 Hz from the first volts to the end", saw, about=(hz,), picture="topics")
+        raise Missed(f"{due} Hz from the first volts to the end", saw, about=(hz,), picture="topics")
 
 
 @port.check(1, after=publishes_temperatures, only="default")
@@ -83,23 +94,25 @@ def is_stamped(run: Recording, rows: list[Message]) -> None:
             hint = "rospy.Time.now() is self.get_clock().now().to_msg(), called again for each message."
             expected = f"the stamp {row.stamp:.3f} s in the message of that time"
             raise Missed(expected, stamp_words(header.stamp), hint)
-        if header.frame_id != "engine":
-            hint = "As in the listing: header.frame_id is engine, without a slash."
-            raise Missed("frame_id “engine”", f"“{header.frame_id}”" if header.frame_id else "none", hint)
+        frame = port.drawn.frame
+        if header.frame_id != frame:
+            hint = f"As in the listing: header.frame_id is {frame}, without a slash."
+            raise Missed(f"frame_id “{frame}”", f"“{header.frame_id}”" if header.frame_id else "none", hint)
 
 
 @port.check(1, after=publishes_temperatures, only="default",
             guess="rospy.logwarn(...) is self.get_logger().warning(...), for each temperature above 80.")
 def warns_above_80(run: Recording) -> None:
     """Each temperature above 80 degrees is logged as a warning, and no other."""
-    answers(run, TEMPERATURE, level="WARN", within=0.15, where=lambda row: row.message.temperature > HOT,
-            what="temperatures above 80 degrees", only=True)
+    hot = port.drawn.hot
+    answers(run, TEMPERATURE, level="WARN", within=0.15, where=lambda row: row.message.temperature > hot,
+            what=f"temperatures above {hot} degrees", only=True)
 
 
 @port.check(2, after=has_its_ends, only="gain", hints={
     "A loop keeps the executor from running callbacks: see the check of the temperatures.": _is_never_called,
     "That is with the default gain. The node has a parameter that is called `gain`, without the `~`: "
-    "self.declare_parameter(\"gain\", 25.0).": lambda run, row, gain: _is_one_of(run, row, GAIN),
+    "self.declare_parameter(\"gain\", 25.0).": lambda run, row, gain: _is_one_of(run, row, port.drawn.gain),
     "That is with the gain from before. rospy.get_param in the loop asks each time, and so must "
     "self.get_parameter(\"gain\").value.":
         lambda run, row, gain: gain != STARTED and _is_one_of(run, row, STARTED),
@@ -115,7 +128,7 @@ def follows_the_gain(run: Recording) -> None:
             _require_product(run, row, STARTED, STARTED)
     if not is_success(call):
         expected = f"the gain can be set to {gain:g} at {call.requested:.3g} s"
-        hint = "Declare `gain` with the default 25.0, and don't refuse any other value."
+        hint = f"Declare `gain` with the default {port.drawn.gain}.0, and don't refuse any other value."
         raise Missed(expected, "no answer" if call.answered is None else "it is refused", hint)
     for row in publishes(run.during(call.requested + SETTLED), TEMPERATURE, TYPE):
         _require_product(run, row, gain, gain)

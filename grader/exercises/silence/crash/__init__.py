@@ -14,6 +14,7 @@ from grader.exercises.silence.crash.crash_reports import (
     crashes,
 )  # fmt: skip
 from grader.responses import EDGE, Stimuli
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds
 
 __all__ = ["crash", "crashes"]
@@ -23,7 +24,18 @@ CAUSE = "/cause"
 TOO_MANY = 4  # wrong answers that cost all points of a check
 TWO_ERRORS = "There are two tracebacks: the first error was handled, and the last one ended the program."
 
-crash = Exercise("crash", "Where did it crash?", seconds=10, companions=crashes, seeds=(1, 2))
+PLACE = "{path.split('/')[-1]}:{number}"  # in the answer of the notebook
+
+crash = Exercise("crash", "Where did it crash?", seconds=10, companions=crashes, seeds=(1, 2),
+                 variants=Variants(
+    {"example": ("driver.py:31 TypeError", "TypeError driver.py:31", "TypeError at driver.py:31"),
+     "both": ("the **place** and the **error**", *2 * ("the **error** and the **place**",)),
+     "parts": ("place and error", *2 * ("error and place",)),
+     "between": ("a space", "a space", "` at `"), "sign": (" ", " ", " at "),
+     "answer": (f"{PLACE} {{error}}", f"{{error}} {PLACE}", f"{{error}} at {PLACE}"),
+     "begins_with": ("place", *2 * ("error",))},
+    texts=("{example}", "{both}", "with {between} between", "return {parts}", "{answer}"),
+))
 texts = Stimuli(CRASH, answered_on=CAUSE, within=PAUSE - 2 * EDGE, what="texts on /crash")
 
 
@@ -94,8 +106,10 @@ def _answers(run: Recording) -> list[CrashAnswer]:
     found = []
     for text in texts(run):
         values = text.values()
-        place, _, error = (values[0] if len(values) == 1 else "").strip().partition(" ")
-        found.append(CrashAnswer(text.stamp, known[text.value.data], len(values), place, error.strip()))
+        first, _, second = (values[0] if len(values) == 1 else "").strip().partition(crash.drawn.sign)
+        place, error = (first, second) if crash.drawn.begins_with == "place" else (second, first)
+        found.append(CrashAnswer(text.stamp, known[text.value.data], len(values), place.strip(),
+                                 error.strip()))
     return found
 
 

@@ -8,6 +8,7 @@ from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.silence.graph.speakers import LATE, PAUSE, speakers
 from grader.responses import EDGE, Stimuli, Window
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds
 
 __all__ = ["graph", "speakers"]
@@ -15,7 +16,6 @@ __all__ = ["graph", "speakers"]
 STRING = "std_msgs/msg/String"
 QUESTION, ANSWER = "/question", "/answer"
 LATELY = 0.3  # s; each publisher of the course publishes every 0.2 s
-NONE = "none"
 
 WRONG = {
     "Publish once in the callback, with all names in one message: ', '.join(names).":
@@ -25,7 +25,7 @@ WRONG = {
     "These nodes subscribe to it. To find the publishers: get_publishers_info_by_topic(topic).":
         lambda run, one: (names := set(_names(one))) and not names <= set(one.speakers)
         and names <= {end.node for end in run.graph.subscriptions(one.topic)},
-    f"An empty list of names makes an empty string: publish “{NONE}” "
+    "An empty list of names makes an empty string: publish “none” "
     "instead.": lambda run, one: not _names(one),
     "A node with two publishers is in the list twice: put the names in a set first.":
         lambda run, one: len(_names(one)) > len(set(_names(one))),
@@ -39,7 +39,13 @@ WRONG = {
     "Look up the topic that the question names: msg.data.": otherwise,
 }
 
-graph = Exercise("graph", "Who publishes there?", seconds=8, companions=speakers, seeds=(1, 2))
+graph = Exercise("graph", "Who publishes there?", seconds=8, companions=speakers, seeds=(1, 2),
+                 variants=Variants(
+    {"between": (", ", "; ", " | "), "sign": ("a comma and a space", "a semicolon and a space", "` | `")},
+    {"none": ("none", "empty", "nothing")},
+    texts=("separated by {sign}", "/kitchen/arm{between}/lidar", '"{between}".join', "'{between}'.join",
+           "`{none}`", '"{none}"', "“{none}”"),
+))
 questions = Stimuli(QUESTION, answered_on=ANSWER, within=PAUSE - 2 * EDGE)
 
 
@@ -54,7 +60,7 @@ class GraphQuestion(NamedTuple):
     @property
     def right(self) -> str:
         """The answer."""
-        return ", ".join(self.speakers) or NONE
+        return str(graph.drawn.between.join(self.speakers) or graph.drawn.none)
 
 
 @graph.check(2)
@@ -104,7 +110,9 @@ def _right(run: Recording, questions: list[GraphQuestion], what: str, some: bool
     """
     if not questions:
         raise no_data(run, what, "none", run.graph.publishers(QUESTION))
-    found = [(_bare(", ".join(one.answers).split(", ")) - {""}, _bare(one.speakers)) for one in questions]
+    between = graph.drawn.between
+    found = [(_bare(between.join(one.answers).split(between)) - {""}, _bare(one.speakers))
+             for one in questions]
     named = all(one.answers for one in questions) and all(
         names == right or (some and names and names <= right) for names, right in found)
     for one in questions:
@@ -118,7 +126,7 @@ def _right(run: Recording, questions: list[GraphQuestion], what: str, some: bool
 
 def _names(one: GraphQuestion) -> list[str]:
     """The names in the first answer."""
-    return [name for name in one.answers[0].split(", ") if name]
+    return [name for name in one.answers[0].split(graph.drawn.between) if name]
 
 
 def _bare(names: Iterable[str]) -> set[str]:

@@ -4,13 +4,14 @@ import pytest
 from std_msgs.msg import Float64
 
 from grader.checks import Missed
-from grader.exercises.joints.seven import POSITIONS, ends_by_itself
+from grader.exercises.joints.seven import ends_by_itself, seven
 from sim.evidence import CallbackError
 from tests.grader.recordings import published
 
 
 def test_a_program_that_ends_by_an_error_does_not_end_by_itself():
-    positions = [(2.0 * number, Float64(data=value)) for number, value in enumerate(POSITIONS, start=1)]
+    values = map(float, seven.drawn.positions.split(", "))
+    positions = [(2.0 * number, Float64(data=value)) for number, value in enumerate(values, start=1)]
     run = published("/joint_commands", positions, seconds=20.0)
     run.errors.append(CallbackError(16.0, "/joint_publisher", "Seven.send", "IndexError", "out of range", ""))
     with pytest.raises(Missed) as missed:
