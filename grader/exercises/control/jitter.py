@@ -7,14 +7,18 @@ from grader.checks import Missed, hinting, otherwise, publishes, subscribes
 from grader.companions.control_streams import PERIOD, Sensor
 from grader.exercise import Exercise
 from grader.responses import from_course, matches, same
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds, since_start
 from sim.nanoseconds import EPOCH, SECOND
 
 FLOAT = "std_msgs/msg/Float64"
-ALLOWED = 0.01  # s of latency
 EXACT, SOON = 1e-4, 0.05  # s
 
-jitter = Exercise("jitter", "How late is late?", seconds=5, companions=[Sensor], seeds=(1, 2))
+jitter = Exercise("jitter", "How late is late?", seconds=5, companions=[Sensor], seeds=(1, 2),
+                  variants=Variants(
+    {"limit": (0.01, 0.015, 0.005)},  # s
+    texts=("more than {limit} s", "above {limit} s", "latency > {limit}"),
+))
 
 
 class Beat(NamedTuple):
@@ -68,15 +72,16 @@ def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
 
 @jitter.check(3, after=measures_the_latency, hints={
     "You count each message separately: add them up, self.late += 1.":
-        lambda run, sent, beats: matches(sent, [int(beat.latency > ALLOWED) for beat in beats]),
+        lambda run, sent, beats: matches(sent, [int(beat.latency > jitter.drawn.limit) for beat in beats]),
     "Those arrived in time: count only the late ones.": lambda run, sent, beats: matches(
-        sent, list(itertools.accumulate(int(beat.latency <= ALLOWED) for beat in beats))
+        sent, list(itertools.accumulate(int(beat.latency <= jitter.drawn.limit) for beat in beats))
     ),
     "Count those whose latency is above 0.01 s, from the start on.": otherwise,
 })
 def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
     """After each message, /late is how many messages so far had a latency of more than 0.01 s."""
-    counts = list(itertools.accumulate(int(beat.latency > ALLOWED) for beat in beats))
+    limit = jitter.drawn.limit
+    counts = list(itertools.accumulate(int(beat.latency > limit) for beat in beats))
     _require_numbers(run, "/late", "std_msgs/msg/Int32", counts, beats)
 
 

@@ -9,20 +9,19 @@ from grader.checks.topics import longest_pause
 from grader.companions.control_streams import Camera
 from grader.exercise import Exercise
 from grader.responses import EDGE, Stimuli, Stimulus
+from grader.variants import Variants
 from grader.worlds.carts import work_cart
 from sim.evidence import Message, Recording
 
 LIMIT, ALONE = 0.035, 0.2  # s
 LOOKS, SOON = 0.3, 0.75  # s
-ANSWERS = "/brightest"
 ASIDE = ("A slow callback needs its own callback group, and the node needs a MultiThreadedExecutor: either "
          "one alone changes nothing.")
 
-worker = Exercise(
-    "worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1,
-                                                                                              2), waits=False
-)
-pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")
+worker = Exercise("worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2),
+                  waits=False, variants=Variants(
+    {"topic": ("/brightest", "/light", "/brightest_pixel")}, texts=("{topic}",),
+))
 
 
 @worker.check(2)
@@ -30,7 +29,7 @@ def subscribes_and_publishes(run: Recording) -> None:
     """The node subscribes to /picture, and publishes efforts on /cart_effort and positions on /brightest."""
     subscribes(run, "/picture", "std_msgs/msg/UInt8MultiArray")
     publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
-    publishes(run, ANSWERS, "std_msgs/msg/Int32")
+    publishes(run, worker.drawn.topic, "std_msgs/msg/Int32")
 
 
 @worker.check(1, after=subscribes_and_publishes, hints={
@@ -40,7 +39,7 @@ def subscribes_and_publishes(run: Recording) -> None:
 })
 def looks_at_each_picture(run: Recording) -> None:
     """Each picture is processed: its brightest pixel's position is on /brightest 0.3 s to 0.75 s later."""
-    taken = pictures(run)
+    taken = _pictures(run)
     missed = []
     for picture in taken:
         first = picture.responses[:1]
@@ -51,7 +50,8 @@ def looks_at_each_picture(run: Recording) -> None:
         saw = [f"{row.message.data} at {row.stamp:.3g} s" for row in first.responses] or ["nothing then"]
         when = f"{LOOKS:g} s to {SOON:g} s after the picture at {first.stamp:.3g} s"
         credit = 0.5 if 2 * len(missed) <= len(taken) else 0.0
-        raise Missed(f"{_brightest(first)} on {ANSWERS}, {when}", saw[0], about=(first,), credit=credit)
+        expected = f"{_brightest(first)} on {worker.drawn.topic}, {when}"
+        raise Missed(expected, saw[0], about=(first,), credit=credit)
 
 
 @worker.check(8, after=looks_at_each_picture)
@@ -77,11 +77,17 @@ def keeps_the_deadline(run: Recording) -> None:
 @worker.check(3, after=keeps_it_up)
 def answers_once(run: Recording) -> None:
     """There is exactly one answer for each picture, and no other."""
-    for picture in pictures(run):
+    for picture in _pictures(run):
         if picture.values() != [_brightest(picture)]:
-            expected = f"{_brightest(picture)} on {ANSWERS} for the picture at {picture.stamp:.3g} s"
+            topic = worker.drawn.topic
+            expected = f"{_brightest(picture)} on {topic} for the picture at {picture.stamp:.3g} s"
             hint = "Publish what look(...) returns, once for each picture; leave none out."
             raise Missed(f"{expected}, and nothing else", picture.seen(), hint)
+
+
+def _pictures(run: Recording) -> list[Stimulus]:
+    answers = worker.drawn.topic
+    return Stimuli("/picture", answered_on=answers, within=SOON, what="pictures")(run)
 
 
 def _brightest(picture: Stimulus) -> int:

@@ -10,6 +10,7 @@ from grader.companions.joint_targets import CRUISE, teacher
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
 from grader.responses import Window, from_course, last_before, same
+from grader.variants import Variants
 from grader.worlds.arms import arm_of
 from sim.evidence import Goal, Message, Recording, Seconds
 from sim.nanoseconds import in_seconds
@@ -22,7 +23,11 @@ OVERTAKEN = ("This goal took so long that the next path arrived before it ended:
              "speed first.")
 
 trajectory = Exercise("trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher,
-                      seeds=(1, 2), waits=False)
+                      seeds=(1, 2), waits=False, variants=Variants(
+    {"done": ("succeeded", "reached", "done")},
+    {"refused": ("rejected", "refused", "declined")},
+    texts=("`{done}`", "`{refused}`", "“{done}”", "“{refused}”", '"{done}"', '"{refused}"'),
+))
 
 
 class Lesson(NamedTuple):
@@ -120,10 +125,11 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
 
 @trajectory.check(5, after=by_their_names, hints={
     "The goal response says whether the goal is accepted: if not handle.accepted, there is no result "
-    "to wait for, so publish the outcome at once.": lambda run, expected, sent: expected == "rejected",
+    "to wait for, so publish the outcome at once.":
+        lambda run, expected, sent: expected == trajectory.drawn.refused,
     "A result doesn't mean success: check whether future.result().status is STATUS_SUCCEEDED or "
     "STATUS_ABORTED; result.error_string says why.": lambda run, expected, sent: (
-        expected.startswith("aborted") and sent and sent[0].startswith("succeeded")
+        expected.startswith("aborted") and sent and sent[0].startswith(trajectory.drawn.done)
     ),
     "get_result_async() returns a future. In its callback check future.result().status, and publish the "
     "word, with the result's error_string if it was aborted.": otherwise,
@@ -131,12 +137,14 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
 def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
     """Each goal's outcome is on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     published = publishes(run, "/outcome", "std_msgs/msg/String")
+    words = {"succeeded": trajectory.drawn.done, "rejected": trajectory.drawn.refused}
     for path, goal in lessons:
         if goal.ended is None or not Window.after(goal.ended, SOON).is_over(run):
             continue
         later = [other.stamp for other, _ in lessons if other is not path and other.stamp >= goal.ended]
         window = Window(path.stamp, goal.ended + SOON).before(min(later, default=math.inf))
-        outcome = f"aborted: {goal.result.error_string}" if goal.status == "aborted" else goal.status
+        outcome = f"aborted: {goal.result.error_string}" if goal.status == "aborted" else words.get(
+            goal.status, goal.status)
         sent = [row.message.data for row in window.rows(published)]
         if sent != [outcome]:
             expected = f"“{outcome}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path"

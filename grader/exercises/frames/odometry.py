@@ -11,6 +11,7 @@ from grader.companions.moving_frames import WheelOdometry
 from grader.exercise import Exercise
 from grader.geometry import Pose2D
 from grader.responses import Window, from_course, same
+from grader.variants import Variants
 from sim.evidence import Message, Recording, since_start
 
 WHEELS = "/wheels/odom"
@@ -19,7 +20,10 @@ EARLY = 0.3  # s; until then, a place may be right by accident
 OFTEN = 0.3  # of the odometries
 
 odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companions=[WheelOdometry],
-                    seeds=(1, 2))
+                    seeds=(1, 2), variants=Variants(
+    {"child": ("base_link", "base_footprint", "chassis")},
+    texts=("child `{child}`", "child {child}", '"odom", "{child}"'),
+))
 
 
 @odometry.check(2, guess="A TransformBroadcaster's sendTransform publishes on /tf: call it in the callback.")
@@ -43,7 +47,7 @@ def puts_it_there(run: Recording) -> None:
         poses = [Pose2D.from_message(row.message.pose.pose) for row in Window(0.0, one.stamp).rows(rows)]
         if poses and not (one.is_rotation and one.pose.is_near(poses[-1], NEAR, NEAR)):
             wrong.append((one, poses))
-    between(sent, "odom", "base_link", "/tf", lambda one: not wrong)
+    between(sent, "odom", odometry.drawn.child, "/tf", lambda one: not wrong)
     if wrong:
         first, poses = wrong[0]
         later = [_is_partly_right(*pair) for pair in wrong if pair[0].stamp > EARLY]

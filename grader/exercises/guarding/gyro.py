@@ -13,12 +13,12 @@ from grader.companions.blind_drivers import LateStarter
 from grader.exercise import Exercise, Scenario
 from grader.geometry.angles import least_turn, turn_between
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim import Network
 from sim.evidence import Recording, Seconds
 
 Headings = list[tuple[Seconds, float]]  # degrees
 
-HEADING = "/heading"
 RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LEAVING
 LEAVING = 3.0
 ALONG, MOST = 5.0, 0.9  # degrees; of the headings: a message that is lost is missing for a moment
@@ -31,20 +31,20 @@ LOSSY = Network(loss=0.1, delay=0.02, jitter=0.004)  # s; too little for one mes
 gyro = Exercise("gyro", "A gyro without drift", scenarios=[
     Scenario("lab", 28, 5, [LateStarter]),
     Scenario("lab", 28, 6, [LateStarter], network=LOSSY),
-])
+], variants=Variants({"topic": ("/heading", "/turned", "/angle")}, texts=("{topic}",)))
 
 
 @gyro.check(3, lasts=True)
 def sums_up(run: Recording) -> Headings:
     """The node subscribes to /imu/data, and publishes Float64 messages on /heading, from start to end."""
     subscribes(run, "/imu/data", "sensor_msgs/msg/Imu")
-    sent = publishes(run, HEADING, "std_msgs/msg/Float64", at_least=50)
+    sent = publishes(run, gyro.drawn.topic, "std_msgs/msg/Float64", at_least=50)
     pause = max(after.stamp - before.stamp for before, after in itertools.pairwise(sent))
     if pause > 1.0 or sent[0].stamp > LEAVING or sent[-1].stamp < run.ended.stamp - 1.0:
         saw = f"messages from {sent[0].stamp:.3g} s to {sent[-1].stamp:.3g} s, with a pause of {pause:.3g} s"
         hint = "Publish in every callback. Until the bias is known, the heading is 0.0."
         raise Missed("a heading all the time, starting by 3 s at the latest", saw, hint)
-    return series(run, HEADING, "data")
+    return series(run, gyro.drawn.topic, "data")
 
 
 def _largest(headings: Headings) -> float:
@@ -132,7 +132,8 @@ def ends_right(run: Recording, headings: Headings) -> Headings:
         expected, saw = f"{turned:.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees"
         scaled = _scaled(run, headings)
         credit = EXPLAINED if scaled else 0.0
-        raise Missed(expected, saw, picture=HEADING, about=(headings,), credit=credit, measured=scaled)
+        topic = gyro.drawn.topic
+        raise Missed(expected, saw, picture=topic, about=(headings,), credit=credit, measured=scaled)
     return headings
 
 
@@ -169,13 +170,13 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
                     "stands still")
         saw = f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second"
         hint = "It reaches the right heading too late: publish the sum itself, without smoothing."
-        raise Missed(expected, saw, hint, picture=HEADING)
+        raise Missed(expected, saw, hint, picture=gyro.drawn.topic)
 
 
 @gyro.check(3, after=ends_right)
 def is_right_all_the_time(run: Recording, headings: Headings) -> None:
     """It is also right along the way, within 5 degrees."""
-    if headings != series(run, HEADING, "data"):
+    if headings != series(run, gyro.drawn.topic, "data"):
         return  # one factor explains them
     for stamp, value in headings:
         if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= ALONG:

@@ -8,15 +8,19 @@ from grader.checks.no_data import no_data
 from grader.companions.joint_targets import gymnast
 from grader.exercise import Exercise
 from grader.responses import Window, from_course, last_before, text_of
+from grader.variants import Variants
 from grader.worlds.arms import arm_of
 from sim.evidence import Message, Recording, Seconds
 
-NAME, STRING = "/near_limit", "std_msgs/msg/String"
+STRING = "std_msgs/msg/String"
 NEAR, CLEAR = 0.1, 0.13  # rad: the margin in the task, and one that no noise reaches from there
 SOON = 0.2  # s
 SOME = 0.5  # of the points, where a third of the joints that come near are named, or more
 
-limits = Exercise("limits", "Near the limit", world=arm_of, seconds=18, companions=gymnast, seeds=(1, 2))
+limits = Exercise("limits", "Near the limit", world=arm_of, seconds=18, companions=gymnast, seeds=(1, 2),
+                  variants=Variants(
+    {"topic": ("/near_limit", "/limit_warning", "/at_limit")}, texts=("{topic}",),
+))
 
 
 class Visit(NamedTuple):
@@ -62,7 +66,7 @@ OTHERS = {
 @limits.check(4, after=subscribes_to_both, hints=OTHERS)
 def names_those_near(run: Recording) -> list[Visit]:
     """The name of each joint that comes within 0.1 rad of a limit is sent on /near_limit."""
-    messages, visits = publishes(run, NAME, STRING), _visits(run)
+    messages, visits = publishes(run, limits.drawn.topic, STRING), _visits(run)
     others = _others(messages, visits)
     if 2 * len(others) > len(messages):
         raise _another(others)
@@ -83,7 +87,7 @@ def names_those_near(run: Recording) -> list[Visit]:
 @limits.check(4, after=names_those_near, hints=OTHERS)
 def names_no_other(run: Recording, visits: list[Visit]) -> None:
     """No other joint is named."""
-    others = _others(run.messages(NAME), _visits(run))
+    others = _others(run.messages(limits.drawn.topic), _visits(run))
     if others:
         raise _another(others)
 
@@ -98,7 +102,7 @@ def names_no_other(run: Recording, visits: list[Visit]) -> None:
 def once_for_each(run: Recording, visits: list[Visit]) -> None:
     """Each time a joint comes near, it is named once, and not again as long as it stays there."""
     for visit in visits:
-        count = len(visit.names(run.messages(NAME), visit.end + SOON))
+        count = len(visit.names(run.messages(limits.drawn.topic), visit.end + SOON))
         if count > 1:
             expected = f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s"
             raise Missed(expected, f"{count}", about=(visit, count))

@@ -9,10 +9,10 @@ from grader.companions.blind_drivers import Wanderer
 from grader.exercise import Exercise
 from grader.geometry import Pose2D
 from grader.responses import EDGE
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds
 
 GOAL = (5.0, 5.0)
-DISTANCE, BEARING = "/goal/distance", "/goal/bearing"
 
 Formula = Callable[[Pose2D], float]
 
@@ -35,7 +35,11 @@ class Value(NamedTuple):
 
 
 compass = Exercise("compass", "Distance and bearing", world="yard", seconds=20, companions=[Wanderer],
-                   seeds=(1, 2))
+                   seeds=(1, 2), variants=Variants(
+    {"distance": ("/goal/distance", "/target/distance", "/goal/range"),
+     "bearing": ("/goal/bearing", "/target/bearing", "/goal/angle")},
+    texts=("{distance}", "{bearing}"),
+))
 
 
 def _distance(pose: Pose2D) -> float:
@@ -58,7 +62,7 @@ def _all_are(formula: Formula, tolerance: float) -> Callable[..., bool]:
 @compass.check(2)
 def publishes_both(run: Recording) -> None:
     """The node publishes Float64 messages on /goal/distance and on /goal/bearing."""
-    for topic in (DISTANCE, BEARING):
+    for topic in (compass.drawn.distance, compass.drawn.bearing):
         publishes(run, topic, "std_msgs/msg/Float64", at_least=20)
 
 
@@ -74,8 +78,9 @@ def publishes_both(run: Recording) -> None:
 })
 def publishes_the_distance(run: Recording) -> None:
     """/goal/distance is the distance from the robot to (5, 5), in meters, within 5 cm."""
-    _agrees(_answers(run, DISTANCE), _distance, 0.05, "m")
-    lasts(run, DISTANCE)
+    topic = compass.drawn.distance
+    _agrees(_answers(run, topic), _distance, 0.05, "m")
+    lasts(run, topic)
 
 
 @compass.check(6, after=publishes_both, hints={
@@ -99,9 +104,10 @@ def publishes_the_distance(run: Recording) -> None:
 })
 def publishes_the_bearing(run: Recording) -> None:
     """/goal/bearing is how far the robot must turn to face (5, 5): -pi to pi rad, positive to the left."""
-    answers = _answers(run, BEARING)
+    topic = compass.drawn.bearing
+    answers = _answers(run, topic)
     _agrees(answers, _bearing, 0.1, "rad", credit=0.5 if _is_right_but_for_turns(answers) else 0.0)
-    lasts(run, BEARING)
+    lasts(run, topic)
 
 
 def _agrees(answers: list[Value], right: Formula, tolerance: float, unit: str, credit: float = 0.0) -> None:

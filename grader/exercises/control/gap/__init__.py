@@ -8,14 +8,14 @@ from grader.exercise import Exercise
 from grader.exercises.control.gap.slope import MOST, Slope
 from grader.geometry.near import is_near
 from grader.responses import EDGE, Window, from_course, last_before, matches, same
+from grader.variants import Variants
 from grader.worlds.frame_worlds import ramp
 from sim.evidence import Recording, Seconds
 
 __all__ = ["Slope", "gap"]
 
 FLOAT = "std_msgs/msg/Float64"
-WEIGHT = 0.2
-TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
+NEAR = 0.03  # m
 LAST, PERIOD = 4.0, 0.05  # s; from one scan to the next
 HELD = 0.4  # of the scans: fewer, and the motors brake
 CLOSE = 1e-3  # m
@@ -24,7 +24,13 @@ WIND_UP = ("On the way to the wall the error is large and the speed is at its li
 SIGN = ("The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is "
         "the sign right, and is P large enough?")
 
-gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2))
+gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2),
+               variants=Variants(
+    {"target": (0.6, 0.7, 0.65), "least": (0.48, 0.58, 0.53), "comes": (0.85, 0.95, 0.9)},  # m
+    {"weight": (0.2, 0.25), "part": ("a fifth", "a quarter"), "rest": ("four fifths", "three quarters")},
+    texts=("{target} m", "{least} m", "{comes} m", "distance - {target}", "{part} of the new",
+           "{rest} of the old", "{weight} * (new"),
+))
 
 
 @gap.check(2)
@@ -38,7 +44,7 @@ def publishes_both(run: Recording) -> None:
     "That is the raw scan, with all its noise: mix it with your previous value.":
         lambda run, sent, scans: matches(sent, scans, CLOSE),
     "The weights are swapped: a fifth of the new value, four fifths of the old one.":
-        lambda run, sent, scans: matches(sent, _filtered(scans, 1 - WEIGHT), CLOSE),
+        lambda run, sent, scans: matches(sent, _filtered(scans, 1 - gap.drawn.weight), CLOSE),
     "It begins at 0: use the first distance unfiltered.": lambda run, sent, scans: sent[0] < scans[0] / 2,
     "Compute self.distance + 0.2 * (new - self.distance), and store it in self.distance for the next "
     "scan.": otherwise,
@@ -54,7 +60,7 @@ def filters(run: Recording) -> None:
         raise Missed(f"{len(scans)} messages on /distance", f"{len(sent)}", hint)
     # Too near and too far a ray is inf: what comes of that is not judged.
     seen = list(itertools.takewhile(math.isfinite, scans))
-    for number, (saw, expected) in enumerate(zip(sent, _filtered(seen, WEIGHT), strict=False), 1):
+    for number, (saw, expected) in enumerate(zip(sent, _filtered(seen, gap.drawn.weight), strict=False), 1):
         if not same(saw, expected, CLOSE):
             expectation = f"{expected:.3f} m as number {number} on /distance"
             raise Missed(expectation, f"{saw:.3f} m", about=(sent[: len(seen)], scans))
@@ -69,14 +75,14 @@ def filters(run: Recording) -> None:
 def does_not_run_into_the_wall(run: Recording) -> None:
     """The robot gets within 0.85 m of the wall, and never closer than 0.48 m. It touches nothing."""
     keeps_clear(run, "")
-    distances = _distances(run, 0.0)
+    distances, drawn = _distances(run, 0.0), gap.drawn
     nearest, stamp = min(distances)
     last, _ = distances[-1]
-    if last > COMES:
-        raise Missed(f"{COMES:g} m or less to the wall at the end", f"{last:.2f} m", SIGN, picture="path")
-    if nearest < TARGET - BEYOND:
+    if last > drawn.comes:
+        raise Missed(f"{drawn.comes} m or less to the wall at the end", f"{last:.2f} m", SIGN, picture="path")
+    if nearest < drawn.least:
         saw = f"{nearest:.2f} m at {stamp:.3g} s"
-        raise Missed(f"{TARGET - BEYOND:g} m or more to the wall", saw, picture="path")
+        raise Missed(f"{drawn.least} m or more to the wall", saw, picture="path")
 
 
 @gap.check(2, after=does_not_run_into_the_wall)
@@ -88,21 +94,21 @@ def keeps_within_the_limit(run: Recording) -> None:
 
 @gap.check(4, after=does_not_run_into_the_wall, hints={
     "P alone stops where its command just balances the slope. I removes the remaining error: add the sum "
-    "of error times time.": lambda run, distance: distance > TARGET,
+    "of error times time.": lambda run, distance: distance > gap.drawn.target,
     WIND_UP: otherwise,
 })
 def stands_at_the_distance(run: Recording) -> None:
     """For the last four seconds it stands 0.6 m from the wall, within 3 cm."""
-    begin = run.ended.stamp - LAST
+    begin, target = run.ended.stamp - LAST, gap.drawn.target
     speeds = Window(begin, run.ended.stamp).rows(run.messages("/speed"))
     held = sum(math.isfinite(row.message.data) for row in speeds)
     if held < HELD * LAST / PERIOD:
         hint = ("A node that publishes nothing leaves the job to the brake: publish a speed for every scan, "
                 "to the end.")
         raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
-    worst, _ = max(_distances(run, begin), key=lambda row: abs(row[0] - TARGET))
-    if not is_near(worst, TARGET, NEAR):
-        expected = f"{TARGET:g} m, within {NEAR * 100:g} cm"
+    worst, _ = max(_distances(run, begin), key=lambda row: abs(row[0] - target))
+    if not is_near(worst, target, NEAR):
+        expected = f"{target} m, within {NEAR * 100:g} cm"
         raise Missed(expected, f"{worst:.2f} m", about=(worst,), picture="path")
 
 
@@ -115,12 +121,14 @@ def _distances(run: Recording, begin: Seconds) -> list[tuple[float, Seconds]]:
 def _drives_the_wrong_way(run: Recording) -> bool:
     """Return whether the first speeds have another sign than the errors of the distances beside them."""
     pairs = zip(run.messages("/distance")[:20], run.messages("/speed")[:20], strict=False)
-    return sum((row.message.data - TARGET) * speed.message.data < 0 for row, speed in pairs) > 10
+    target = gap.drawn.target
+    return sum((row.message.data - target) * speed.message.data < 0 for row, speed in pairs) > 10
 
 
 def _speed_on_arrival(run: Recording) -> float:
     """The last speed before the robot was nearer than it should."""
-    passed = next((stamp for distance, stamp in _distances(run, 0.0) if distance < TARGET), math.inf)
+    target = gap.drawn.target
+    passed = next((stamp for distance, stamp in _distances(run, 0.0) if distance < target), math.inf)
     return last_before(run.messages("/speed"), passed).message.data
 
 

@@ -14,16 +14,17 @@ from grader.exercise import Exercise
 from grader.exercises.drawing.describe.pan_tilt_driver import LIMITS, pan_tilt_driver
 from grader.geometry.near import is_near
 from grader.responses import from_course, same
+from grader.variants import Variants
 from sim.evidence import Recording, since_start
 
 __all__ = ["describe", "pan_tilt_driver"]
 
 MOVING = {  # joint: its parent, its child, where it is on the parent (m), and its axis
     "pan_joint": ("base_link", "pan_link", (0.0, 0.0, 0.1), (0.0, 0.0, 1.0)),
-    "tilt_joint": ("pan_link", "tilt_link", (0.05, 0.0, 0.06), (0.0, 1.0, 0.0)),
+    "tilt_joint": ("pan_link", "tilt_link", None, (0.0, 1.0, 0.0)),  # the place is drawn
 }
 LINKS = "base_link", "pan_link", "tilt_link", "camera"
-CAMERA, PLACE, ROLL = LINKS[2:], (0.04, 0.0, 0.02), 3.1416
+CAMERA, ROLL = LINKS[2:], 3.1416
 OF_A_LIMIT = "lower", "upper", "effort", "velocity"
 STRENGTH = 2.0, 3.0  # N m, rad/s
 SHOWN = "from {:g} to {:g} rad, effort {:g}, velocity {:g}"
@@ -32,7 +33,14 @@ LEAST = 5  # transforms of each joint
 PART = 0.25  # of the points, where a joint turns, but about another axis or at another place
 
 describe = Exercise("describe", "A description of your own", seconds=5, companions=pan_tilt_driver,
-                    seeds=(1, 2))
+                    seeds=(1, 2), variants=Variants(
+    {"x": (0.05, 0.04, 0.07), "z": (0.06, 0.08, 0.05), "x_cm": (5, 4, 7), "z_cm": (6, 8, 5)},  # m, cm
+    {"lower": (-0.5, -0.6, -0.55), "upper": (1.0, 1.1, 1.2)},  # rad
+    {"ahead": (0.04, 0.03, 0.05), "above": (0.02, 0.03, 0.04)},  # m
+    texts=('"{x} 0 {z}"', "is {x_cm} cm forward and {z_cm} cm up", "{x} m in front of", "{z} m above it",
+           "limits are {lower} and {upper} rad", 'lower="{lower}" upper="{upper}"',
+           "{ahead} m in front and {above} m above", '"{ahead} 0 {above}"'),
+))
 
 
 @describe.check(1, guess="Return the text of two links and two joints, and leave the rest as it is.")
@@ -60,7 +68,9 @@ def moves_with_its_joints(run: Recording, robot: ElementTree.Element) -> Element
     """pan_link and tilt_link are on /tf: where the joints' positions put them."""
     states = {since_start(row.message.header.stamp): row.message for row in from_course(run, "/joint_states")}
     known = {stamp: dict(zip(row.name, row.position, strict=True)) for stamp, row in states.items()}
-    for name, (parent, child, place, axis) in MOVING.items():
+    drawn = describe.drawn
+    for name, (parent, child, fixed, axis) in MOVING.items():
+        place = fixed or (drawn.x, 0.0, drawn.z)
         sent = [one for one in broadcasts(run, "/tf", child) if one.measured in known]
         if len(sent) < LEAST:
             raise Missed(f"{parent} → {child} on /tf for each position of {name}", _frames(run, "/tf"))
@@ -85,14 +95,16 @@ def mounts_the_camera(run: Recording, robot: ElementTree.Element) -> None:
     sent = broadcasts(run, "/tf_static", CAMERA[1])
     if not sent or sent[-1].message.header.frame_id != CAMERA[0]:
         raise Missed(f"{' → '.join(CAMERA)} on /tf_static", _frames(run, "/tf_static"))
-    _require(sent[-1], PLACE, quaternion_from_euler(ROLL, 0.0, 0.0), "upside down")
+    place = (describe.drawn.ahead, 0.0, describe.drawn.above)
+    _require(sent[-1], place, quaternion_from_euler(ROLL, 0.0, 0.0), "upside down")
 
 
 @describe.check(2, after=moves_with_its_joints)
 def has_limits(run: Recording, robot: ElementTree.Element) -> None:
     """Both joints that move have the limits of the task, in radians, with their effort and velocity."""
     limits = {joint.get("name"): joint.find("limit") for joint in robot.iterfind("joint[@type='revolute']")}
-    for name, ends in LIMITS.items():
+    drawn = describe.drawn
+    for name, ends in {**LIMITS, "tilt_joint": (drawn.lower, drawn.upper)}.items():
         limit = limits.get(name)
         found = None if limit is None else [_number(limit.get(key, "0")) for key in OF_A_LIMIT]
         if found is None or not same(found, [*ends, *STRENGTH], NEAR):

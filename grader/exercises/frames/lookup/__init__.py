@@ -10,12 +10,13 @@ from grader.exercise import Exercise, Scenario
 from grader.exercises.frames.lookup.sightings import SIGHTINGS, Team
 from grader.geometry import Point, Pose2D
 from grader.responses import Stimuli, Stimulus, Window, same
+from grader.variants import Variants
 from sim.evidence import Recording, Seconds, since_start
 from sim.network import Network
 
 __all__ = ["Team", "lookup"]
 
-POINT, FOUND, REFUSED = "geometry_msgs/msg/PointStamped", "/found", "/refused"
+POINT = "geometry_msgs/msg/PointStamped"
 SOON, NEAR, LATE = 0.3, 0.05, 0.3  # s, m, m
 OUTSIDE = "ExtrapolationException"  # of the times of its transforms
 KINDS = 0.6  # of the kinds of refusals; fewer are none
@@ -27,9 +28,11 @@ def _scenario(seed: int, network: Network | None = None) -> Scenario:
     return Scenario(None, 6, seed, [Team], network=network)
 
 
-lookup = Exercise("lookup", "Where was it?", scenarios=[_scenario(1), _scenario(2, RADIO)])
-found_sightings = Stimuli("/sighting", answered_on=FOUND, within=SOON, what="sightings of all kinds")
-refused_sightings = Stimuli("/sighting", answered_on=REFUSED, within=SOON, what="sightings of all kinds")
+lookup = Exercise("lookup", "Where was it?", scenarios=[_scenario(1), _scenario(2, RADIO)],
+                  variants=Variants(
+    {"found": ("/found", "/placed", "/on_map"), "refused": ("/refused", "/failed", "/not_placed")},
+    texts=("{found}", "{refused}"),
+))
 
 
 @lookup.check(2, guess="A TransformListener subscribes to both topics: TransformListener(self.buffer, self).")
@@ -54,7 +57,7 @@ def subscribes_to_sightings(run: Recording) -> None:
 def places_them(run: Recording) -> None:
     """Each sighting by a robot on the map is published on /found (PointStamped): where it was, in map."""
     _require_no_lookup_of_now(run)
-    publishes(run, FOUND, POINT)
+    publishes(run, lookup.drawn.found, POINT)
     judged = [seen for seen in _sightings(run) if not _reason(run, seen)]
     shares = [_share(run, seen) for seen in judged]
     wrong = next((seen for seen, share in zip(judged, shares, strict=True) if share < 1.0), None)
@@ -73,8 +76,8 @@ def places_them(run: Recording) -> None:
 @lookup.check(5, after=subscribes_to_sightings)
 def publishes_refusals(run: Recording) -> None:
     """If the lookup fails, its exception's name is on /refused (String), such as LookupException."""
-    publishes(run, REFUSED, "std_msgs/msg/String")
-    refused = refused_sightings(run, at_least=len(SIGHTINGS))
+    publishes(run, lookup.drawn.refused, "std_msgs/msg/String")
+    refused = _sightings(run, lookup.drawn.refused)
     reasons = {seen.stamp: _reason(run, seen) for seen in refused}
     right = [seen for seen in refused if seen.values() == [reasons[seen.stamp]] != [""]]
     needless = any(seen.values() for seen in refused if not reasons[seen.stamp])
@@ -94,7 +97,8 @@ def publishes_refusals(run: Recording) -> None:
 def carries_on(run: Recording) -> None:
     """Nothing else is published, and the node keeps running to the end."""
     reasons, settled = [_reason(run, seen) for seen in _sightings(run)], Window(0.0, run.ended.stamp - SOON)
-    for topic, count in ((FOUND, reasons.count("")), (REFUSED, len(reasons) - reasons.count(""))):
+    placed, drawn = reasons.count(""), lookup.drawn
+    for topic, count in ((drawn.found, placed), (drawn.refused, len(reasons) - placed)):
         sent = settled.rows(run.messages(topic))
         if len(sent) > count:
             hint = ("Each sighting gives either a point or a refusal: publish the point in try, the refusal "
@@ -106,7 +110,7 @@ def carries_on(run: Recording) -> None:
 def keeps_the_stamp(run: Recording) -> None:
     """The point on the map has the stamp of its sighting: the time at which it was there."""
     stamps = [_measured(seen) for seen in _sightings(run)]
-    for row in Window(0.0, run.ended.stamp - SOON).rows(run.messages(FOUND)):
+    for row in Window(0.0, run.ended.stamp - SOON).rows(run.messages(lookup.drawn.found)):
         stamp = row.message.header.stamp
         if not any(same(since_start(stamp), known) for known in stamps):
             hint = ("buffer.transform keeps the stamp; what do_transform_point returns has the stamp of the "
@@ -116,18 +120,21 @@ def keeps_the_stamp(run: Recording) -> None:
 
 def _require_no_lookup_of_now(run: Recording) -> None:
     """Over a network, the transforms of now arrive only later: a lookup of them finds none."""
-    refused = refused_sightings(run, at_least=len(SIGHTINGS))
+    refused = _sightings(run, lookup.drawn.refused)
     early = (seen for seen in refused if seen.values() == [OUTSIDE] and not _reason(run, seen))
     seen = next(early, None)
-    if seen and not run.messages(FOUND):
+    if seen and not run.messages(lookup.drawn.found):
         hint = ("The transforms come over a network, so the one for now isn't there yet: look up the time of "
                 "the sighting, msg.header.stamp.")
         expected = f"the place of the sighting at {seen.stamp:.3g} s"
-        raise Missed(expected, f"{seen.seen()} on {REFUSED}", hint)
+        raise Missed(expected, f"{seen.seen()} on {lookup.drawn.refused}", hint)
 
 
-def _sightings(run: Recording) -> list[Stimulus]:
-    return found_sightings(run, at_least=len(SIGHTINGS))
+def _sightings(run: Recording, topic: str = "") -> list[Stimulus]:
+    """The sightings, with what was published after each on a topic; where it is, if no other is given."""
+    answers = topic or lookup.drawn.found
+    sightings = Stimuli("/sighting", answered_on=answers, within=SOON, what="sightings of all kinds")
+    return sightings(run, at_least=len(SIGHTINGS))
 
 
 def _measured(seen: Stimulus) -> Seconds:

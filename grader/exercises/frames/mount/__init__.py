@@ -8,13 +8,18 @@ from grader.exercise import Exercise
 from grader.exercises.frames.mount.lidar_mount import Mechanic
 from grader.geometry.near import is_near
 from grader.responses import from_course, same
+from grader.variants import Variants
 from sim.evidence import Recording
 
 __all__ = ["Mechanic", "mount"]
 
 STATIC, MOUNTING = "/tf_static", "/mounting"
 
-mount = Exercise("mount", "Where the lidar is mounted", seconds=3, companions=[Mechanic], seeds=(1, 2))
+mount = Exercise("mount", "Where the lidar is mounted", seconds=3, companions=[Mechanic], seeds=(1, 2),
+                 variants=Variants(
+    {"child": ("base_scan", "laser", "lidar_link")},
+    texts=("child `{child}`", "child {child}", '"base_link", "{child}"'),
+))
 
 
 @mount.check(2, guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf.")
@@ -33,7 +38,7 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
     def is_right(one: Broadcast) -> bool:
         return math.dist(one.pose[:2], (x, y)) <= NEAR
 
-    sent = between(broadcasts(run, STATIC), "base_link", "base_scan", STATIC, is_right)
+    sent = between(broadcasts(run, STATIC), "base_link", mount.drawn.child, STATIC, is_right)
     if not is_right(sent[-1]):
         found, hint = sent[-1].pose, "translation.x is msg.x, and translation.y is msg.y."
         # A coordinate that is right, and not by chance as 0 is.

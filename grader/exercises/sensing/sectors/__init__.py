@@ -4,7 +4,6 @@ import bisect
 import itertools
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, lasts, otherwise, publishes, subscribes
@@ -12,6 +11,7 @@ from grader.companions.blind_drivers import Circling
 from grader.exercise import Exercise, Scenario
 from grader.exercises.sensing.sectors.scan_sectors import Sector, sector_of
 from grader.exercises.sensing.sectors.strange_lidar import StrangeLidar
+from grader.variants import Variants
 from grader.worlds.rooms import furnished_room
 from sim.evidence import Recording, Seconds, stamps
 
@@ -22,11 +22,11 @@ MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
 EXPLAINED = 0.5  # of the points, where one mistake explains all distances
 # Mistakes after which the rest can still be judged: which rays are taken then.
 MISTAKES: list[Callable[..., Sector]] = [
-    lambda scan, middle: sector_of(scan, -middle),
-    partial(sector_of, half=10.0),
-    partial(sector_of, half=60.0),
-    partial(sector_of, wraps=False),
-    partial(sector_of, converts=False),
+    lambda scan, middle: sector_of(scan, -middle, _half()),
+    lambda scan, middle: sector_of(scan, middle, 10.0),
+    lambda scan, middle: sector_of(scan, middle, 60.0),
+    lambda scan, middle: sector_of(scan, middle, _half(), wraps=False),
+    lambda scan, middle: sector_of(scan, middle, _half(), converts=False),
 ]
 LAG, PATIENCE = 0.02, 0.3  # seconds
 
@@ -50,7 +50,10 @@ class SectorValue(NamedTuple):
 sectors = Exercise("sectors", "Ahead, left and right", scenarios=[
     Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
     Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
-])
+], variants=Variants(
+    {"half": (30, 20, 40)},  # degrees
+    texts=("{half} degrees", "<= {half} and"),
+))
 
 
 @sectors.check(3)
@@ -153,11 +156,16 @@ def _all_right(answers: list[SectorValue], kind: str) -> None:
         raise Missed(expected, "nothing" if value is None else f"{value:.3g} m", about=(wrong,))
 
 
-def _answers(run: Recording, see: Callable[..., Sector] = sector_of) -> Iterator[SectorValue]:
+def _half() -> float:
+    return float(sectors.drawn.half)
+
+
+def _answers(run: Recording, see: Callable[..., Sector] | None = None) -> Iterator[SectorValue]:
     """The last message on each topic after each scan and before the next one.
 
     see: which rays of a scan are in a direction.
     """
+    see = see or (lambda scan, middle: sector_of(scan, middle, _half()))
     messages = {topic: run.messages(topic) for topic in MIDDLES}
     times = {topic: stamps(rows) for topic, rows in messages.items()}
     before: dict[str, Sector] = {}

@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-HALF = 30.0  # degrees to each side
 BESIDE = 60.0  # degrees: as far off may still be taken for the direction
 EDGE = 1.0  # degrees: whether a ray so near to a sector's edge belongs to it is left open
 
@@ -54,9 +53,11 @@ def _least(rays: np.ndarray) -> float:
 
 
 def sector_of(
-    message: Any, middle: float, half: float = HALF, *, wraps: bool = True, converts: bool = True
+    message: Any, middle: float, half: float, *, wraps: bool = True, converts: bool = True
 ) -> Sector:
     """Return the sector of a scan round a direction: degrees, 0 ahead and 90 to the left.
+
+    half: its width to each side, in degrees.
 
     wraps, converts: whether 350 is the same angle as -10, and whether angles in rad become degrees.
     """
