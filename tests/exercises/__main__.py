@@ -37,17 +37,20 @@ def place_of(name: str) -> tuple[str, str]:
     return found[0]
 
 
-def repeats(topic: str, name: str) -> Iterator[str]:
-    """What right nodes and the solution miss with other seeds, and in other orders."""
+def repeats(topic: str, name: str, number: int = 0) -> Iterator[str]:
+    """What right nodes and the solution miss with other seeds, and in other orders.
+
+    number: of seeds, and of orders; 0 for as many as fit into the usual time.
+    """
     from tests.exercises.assignment import simulated  # not before pytest has rewritten its assertions
 
-    number = min(max(int(SIMULATED / simulated(exercise_of(topic, name))), FEWEST), MOST)
+    number = number or min(max(int(SIMULATED / simulated(exercise_of(topic, name))), FEWEST), MOST)
     with kept_builds():
         yield from fallen_short(topic, name, range(number))
         yield from fallen_short_in_orders(topic, name, range(1, number + 1))
 
 
-def gate(topic: str, name: str) -> int:
+def gate(topic: str, name: str, number: int = 0) -> int:
     """Write the page if there is none yet, and try everything; the exit status of it."""
     if (topic, name) not in with_pages():
         write_page(topic, name)
@@ -55,7 +58,7 @@ def gate(topic: str, name: str) -> int:
     chosen = ["--exercise", f"{topic}/{name}", "-m", "", "-k", f"not ({REPEATED})"]
     files = [f"tests/exercises/test_{each}.py" for each in (topic, *SHARED)]
     failed = pytest.main(["-q", *files, str(folder_of(topic, name)), *TOOLING, *chosen])
-    short = list(repeats(topic, name))
+    short = list(repeats(topic, name, number))
     print(*(short or ["Right nodes earn everything with other seeds and in other orders."]), sep="\n")
     return int(bool(failed or short))
 
@@ -65,6 +68,8 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.exercises", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
     parser.add_argument("--new", action="store_true", help="begin a new exercise: TOPIC NAME")
+    help_ = "how many other seeds and orders; without it, as many as take half a minute"
+    parser.add_argument("--repeats", type=int, default=0, metavar="N", help=help_)
     parser.add_argument("words", nargs="+", metavar="NAME", help="the exercise's; with --new TOPIC NAME")
     options = parser.parse_args(words)
     try:
@@ -72,7 +77,7 @@ def main(words: list[str]) -> int:
             print(*write_new(ROOT, *options.words), sep="\n")
             return 0
         if not options.new and len(options.words) == 1:
-            return gate(*place_of(options.words[0]))
+            return gate(*place_of(options.words[0]), options.repeats)
     except (LookupError, FileExistsError) as error:
         parser.error(str(error))
     parser.error("expected the name of one exercise, or --new TOPIC NAME")
