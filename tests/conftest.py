@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import functools
+import gc
 import os
 import shutil
 import signal
@@ -54,6 +55,16 @@ class ByFile(LoadScopeScheduling):
             return "hub"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Collect tests without the garbage collector: almost all that is created stays."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
 
 
 def pytest_configure() -> None:

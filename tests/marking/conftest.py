@@ -8,6 +8,7 @@ from grader.marking.gradebook.course import Course
 from grader.marking.task import MarkingTask
 from tests.marking.assignment import hand_in, release
 from tests.marking.classroom import classroom, submit
+from tests.marking.made_once import made_once
 from tests.marking.student_processes import plain_sandbox, start_student, student  # noqa: F401
 from tests.marking.tiny import tiny
 
@@ -44,9 +45,11 @@ def staying(tmp_path, gate) -> MarkingTask:
 @pytest.fixture(scope="session")
 def template(tmp_path_factory) -> Path:
     """A class in which anna, bob and eve have handed in; made once, for nbgrader takes its time."""
-    course = classroom(tmp_path_factory.mktemp("class"))
-    submit(course, "anna", "bob", "eve", time=TIME)
-    return course.root
+
+    def make(folder: Path) -> None:
+        submit(classroom(folder), "anna", "bob", "eve", time=TIME)
+
+    return made_once(tmp_path_factory, "class", make)
 
 
 @pytest.fixture

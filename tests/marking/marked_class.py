@@ -14,6 +14,7 @@ from grader.marking.result import Result
 from grader.marking.task import MarkingTask
 from tests.marking.classroom import ASSIGNMENT, result
 from tests.marking.fake_pool import ReadyPool
+from tests.marking.made_once import made_once
 
 SCRIPT = "<script>alert(1)</script>"
 
@@ -45,17 +46,19 @@ def write_secret(folder: Path, text: str) -> None:
 @pytest.fixture(scope="session")
 def marked_template(template: Path, tmp_path_factory) -> Path:
     """The class, marked: anna has 15 of 15 points, eve, with an odd name, too, and bob has none."""
-    folder = tmp_path_factory.mktemp("marked") / "class"
-    shutil.copytree(template, folder)
-    write_secret(folder, "of this class")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        course = Course(folder)
-        assert mark([ASSIGNMENT, "--no-feedback"], ReadyPool(course, marked).open) == 0
-        with Gradebook(course.database) as book:
-            book.update_or_create_student("anna", first_name="Anna", last_name="Meier")
-            book.update_or_create_student("eve", first_name=SCRIPT, last_name="\u202eevE\x1b[2J")
-    return folder
+
+    def make(folder: Path) -> None:
+        shutil.copytree(template, folder, dirs_exist_ok=True)
+        write_secret(folder, "of this class")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.chdir(folder)
+            course = Course(folder)
+            assert mark([ASSIGNMENT, "--no-feedback"], ReadyPool(course, marked).open) == 0
+            with Gradebook(course.database) as book:
+                book.update_or_create_student("anna", first_name="Anna", last_name="Meier")
+                book.update_or_create_student("eve", first_name=SCRIPT, last_name="\u202eevE\x1b[2J")
+
+    return made_once(tmp_path_factory, "marked_class", make)
 
 
 @pytest.fixture
