@@ -19,6 +19,7 @@ from grader.exercises.localization.resample.tour import (
 )
 from grader.geometry import Pose2D
 from grader.geometry.near import is_near
+from grader.variants import Variants
 from sim.evidence import Message, Recording, Seconds
 
 __all__ = ["resample", "tour_yard", "touring"]
@@ -60,7 +61,11 @@ class Cloud(NamedTuple):
 
 
 resample = Exercise("resample", "Move, weigh, resample", world=tour_yard, seconds=ENDS, companions=touring,
-                    seeds=(1, 2))
+                    seeds=(1, 2), variants=Variants(
+    {"along": (0.02, 0.04)},
+    {"turn": (0.01, 0.03)},
+    texts=("{along} * d", "{along} * far", "{along} * meters", "{turn} * a", "{turn} * abs"),
+))
 
 
 @resample.check(1)
@@ -76,7 +81,7 @@ def publishes_a_cloud(run: Recording) -> None:
 def _clouds(run: Recording) -> list[Cloud]:
     """All clouds that were published once the node knew where it starts."""
     rows = [row for row in run.messages(TOPIC) if not row.from_course and row.stamp > STARTS + 0.2]
-    should = shapes_at(run, [row.stamp for row in rows])
+    should = shapes_at(run, [row.stamp for row in rows], resample.drawn.along, resample.drawn.turn)
     return [_cloud(*pair) for pair in zip(rows, should, strict=True)]
 
 

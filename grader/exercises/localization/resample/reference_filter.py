@@ -38,10 +38,13 @@ def shape_of(poses: np.ndarray, weights: np.ndarray) -> Shape:
 
 
 class ReferenceFilter:
-    """Receives what a node receives, and moves and weighs many particles."""
+    """Receives what a node receives, and moves and weighs many particles.
 
-    def __init__(self, seed: int) -> None:
-        self.rng = np.random.default_rng(seed)
+    along: the variance along the robot (m^2 for each m). turn: that of yaw (rad^2 for each rad turned).
+    """
+
+    def __init__(self, seed: int, along: float = ALONG, turn: float = TURN) -> None:
+        self.rng, self.along, self.turn = np.random.default_rng(seed), along, turn
         self.poses = np.zeros((COUNT, 3))
         self.logs = np.zeros(COUNT)
         self.before: Pose2D | None = None
@@ -70,12 +73,12 @@ class ReferenceFilter:
         if not (dx or dy or turn):
             return
         far, normal = math.hypot(dx, dy), self.rng.standard_normal((3, COUNT))
-        ahead = cos * dx + sin * dy + math.sqrt(ALONG * far) * normal[0]
+        ahead = cos * dx + sin * dy + math.sqrt(self.along * far) * normal[0]
         left = cos * dy - sin * dx + math.sqrt(ASIDE * far) * normal[1]
         yaw = self.poses[:, 2]
         self.poses[:, 0] += np.cos(yaw) * ahead - np.sin(yaw) * left
         self.poses[:, 1] += np.sin(yaw) * ahead + np.cos(yaw) * left
-        self.poses[:, 2] += turn + math.sqrt(TURN * abs(turn) + BEND * far) * normal[2]
+        self.poses[:, 2] += turn + math.sqrt(self.turn * abs(turn) + BEND * far) * normal[2]
 
     def weigh(self, beacon: tuple[float, float], distance: float) -> None:
         """Weigh the particles, if the robot has moved since the last time."""
@@ -97,13 +100,16 @@ class ReferenceFilter:
             self.poses, self.logs = self.poses[chosen], np.zeros(COUNT)
 
 
-def shapes_at(run: Recording, stamps: list[Seconds]) -> list[Shape]:
-    """Return the shapes that a cloud should have at these times, from the course's messages in a run."""
+def shapes_at(run: Recording, stamps: list[Seconds], along: float, turn: float) -> list[Shape]:
+    """Return the shapes that a cloud should have at these times, from the course's messages in a run.
+
+    along, turn: variances, as a `ReferenceFilter` takes them.
+    """
     point = run.messages("/beacon")[0].message.point
     topics = "/initialpose", "/odom", "/range"
     rows = sorted((row for topic in topics for row in run.messages(topic) if row.from_course),
                   key=lambda row: row.stamp)
-    filtered, found = ReferenceFilter(0), []
+    filtered, found = ReferenceFilter(0, along, turn), []
     for row in rows:
         while len(found) < len(stamps) and stamps[len(found)] < row.stamp - 1e-6:
             found.append(filtered.shape)
