@@ -23,6 +23,7 @@ else:
         explore,
         play,
         run,
+        schedule,
         since_start,
         source,
     )
@@ -38,6 +39,7 @@ __all__ = [
     "explore",
     "play",
     "run",
+    "schedule",
     "since_start",
     "source",
 ]

@@ -5,7 +5,7 @@ from sim.evidence import Recording, since_start
 from sim.network import Network
 from sim.play import play, replay
 from sim.ros.engine.program import Process
-from sim.ros.exploring import explore
+from sim.ros.exploring import explore, schedule
 from sim.ros.hooks.install import install
 from sim.ros.packages import executable
 from sim.ros.play.pointer import Pointer
@@ -31,6 +31,7 @@ __all__ = [
     "explore",
     "play",
     "run",
+    "schedule",
     "since_start",
     "source",
 ]

@@ -16,13 +16,14 @@ _FILES = {
     "replay.js": (*_PICTURE, "cursor.js", "packed.js", "replay_run.js"),
     "plots.js": (*_BASE, "cursor.js", "packed.js"),
     "prediction.js": ("elements.js",),
+    "order_game.js": ("elements.js",),
 }
+_SHEETS = {"prediction.js": "prediction.css", "order_game.js": "order_game.css"}
 
 
 def script(part: str) -> str:
     """One file of web/, preceded by those that it uses and the style sheet as the constant `STYLE`."""
-    sheet = "prediction.css" if part == "prediction.js" else "view.css"
-    names = (sheet, *_FILES[part], part)
+    names = (_SHEETS.get(part, "view.css"), *_FILES[part], part)
     style, *texts = (_WEB.joinpath(name).read_text(encoding="utf-8") for name in names)
     return "\n".join([f"const STYLE = {json.dumps(style)};", *texts])
 

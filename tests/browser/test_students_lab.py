@@ -13,7 +13,7 @@ def test_lab_starts_with_the_start_page_and_leads_on_and_back(lab, students_fold
     start = lab.page.locator(START)
     start.get_by_text("Your points so far: 0 of").wait_for()
     assert start.locator("h2").all_inner_texts()[:4] == ["Talk", "See", "Move", "Whole robots"]
-    assert start.locator(".card").count() == 16 and start.locator(".jp-Cell").count() == 0
+    assert start.locator(".card").count() == 17 and start.locator(".jp-Cell").count() == 0
     assert lab.page.request.get(f"{lab.address}/api/kernels").json() == []
     lab.screenshot("start")
     lab.page.keyboard.press("Tab")  # in the order of the page: the two links of its first lines, then Next

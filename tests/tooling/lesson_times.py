@@ -27,7 +27,7 @@ LINES = 10  # of code, a minute
 CELL = 0.4  # to run a cell, and to look at its output
 TRY = 5.0  # "Try it yourself"
 QUESTION = 1.0  # in "Check yourself", a prediction before a run with what came out, or what `explore` found
-PLAY = 3.0  # a live robot
+PLAY = 3.0  # a live robot, or callbacks that are scheduled by hand
 SLIDER = 2.0
 BUILD = 0.5  # `colcon build`
 TERMINAL = 4.0  # a block of commands to type into a terminal
@@ -102,7 +102,7 @@ def count(path: Path) -> Lesson:
         questions=text.count("<details>") + len(re.findall(r"\b(?:predict|explore)\(", everything)),
         predictions=everything.count("predict("),
         moves=next((n for n, source in enumerate(sources, 1) if MOVES.search(source)), None),
-        plays=len(re.findall(r"\bplay\(", code)),
+        plays=len(re.findall(r"\b(?:play|schedule)\(", code)),
         sliders=len(re.findall(r"^@?interact\(", code, re.M)),
         builds=code.count("colcon build"),
         terminals=sum(1 for block in FENCE.findall(text) if IN_TERMINAL.search(block)),

@@ -1,5 +1,8 @@
 """Programs that lessons give as models do what their text says, above all when they have to stop."""
 
+import importlib
+import sys
+
 import pytest
 from geometry_msgs.msg import Twist
 from lifecycle_msgs.srv import ChangeState
@@ -7,7 +10,7 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 
 from sim import Process, run
-from tests.tooling.test_lessons import cells
+from tests.tooling.test_lessons import ROOT, cells
 
 
 def motor():
@@ -105,3 +108,14 @@ def test_of_two_parts_of_a_settings_file_the_later_one_counts(last, gap, tmp_pat
     words = ["--ros-args", "--params-file", str(tmp_path / "stopper.yaml")]
     recording = run(Process(Stopper, namespace="/right", arguments=words), seconds=1, quiet=True)
     assert [line.text for line in recording.logs if line.node == "right.stopper"] == [gap]
+
+
+def test_the_courier_of_lesson_15_is_unlucky_in_the_order_that_the_lesson_shows(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "course/15_races")
+    courier = importlib.import_module("courier")
+    monkeypatch.setitem(sys.modules, "courier", courier)  # forgotten afterwards
+    pushed = {
+        order: bool(run(courier.main, world=courier.CORRIDOR, seconds=4, quiet=True, order=order).contacts)
+        for order in (0, 148, courier.UNLUCKY)
+    }
+    assert pushed == {0: False, 148: False, courier.UNLUCKY: True}

@@ -10,7 +10,7 @@ MODULE, FUNCTION = 250, 50  # lines; most functions have under 35
 # Lines of Python that a room may have. Who needs more raises the number, and says why in the commit.
 BUDGETS = {
     "sim": 36_000,
-    "sim/ros": 17_500,
+    "sim/ros": 17_700,
     "sim/ros2": 5_750,
     "sim/view": 4_000,
     "sim/world": 4_750,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from types import BuiltinFunctionType, FrameType, ModuleType
 from typing import Any, NamedTuple
 
+from sim.evidence import since_start
 from sim.nanoseconds import SECOND
 from sim.ros.engine.points import CALL, source_of
 from sim.ros.fibers.choices import label
@@ -48,12 +49,13 @@ class Logged(NamedTuple):
 
 @dataclass
 class Gap:
-    """A preemption of a thread: the accesses from `begin` to `end` happened meanwhile.
+    """A preemption of a thread in a function: the accesses from `begin` to `end` happened meanwhile.
 
     planned: what it was about to do; without values.
     """
 
     thread: tuple[str, int]
+    function: str
     begin: int
     planned: list[Logged]
     end: int | None = None
@@ -75,7 +77,8 @@ class AccessLog:
 
     def add_gap(self, run: Scheduler, frame: FrameType, line: int) -> None:
         """Let the current fiber reach a preemption point, and note its preemption."""
-        gap = Gap(_thread(run.current), len(self.accesses), list(self._accesses(run, frame, line, -line)))
+        planned = list(self._accesses(run, frame, line, -line))
+        gap = Gap(_thread(run.current), _function(frame), len(self.accesses), planned)
         self.gaps.append(gap)
         if run.preemption_point(frame.f_code.co_qualname, line):
             gap.end = len(self.accesses)
@@ -91,8 +94,7 @@ class AccessLog:
             value = _value(owner, name) if base else names.get(name, frame.f_globals.get(name, MISSING))
             if value is not NO_DATA:
                 number, _ = self._objects.setdefault(id(owner), (len(self._objects), owner))
-                function = frame.f_code.co_qualname.rpartition("<locals>.")[2]
-                where = run.now / SECOND, _thread(run.current), function, abs(lines[0])
+                where = run.now / SECOND, _thread(run.current), _function(frame), abs(lines[0])
                 owned = type(owner).__name__ if base else ""
                 text = f"{method}()" if kind == CALL else "" if len(lines) > 1 else _text(value)
                 yield Logged(*where, kind, owned, number, name, text)
@@ -111,6 +113,10 @@ class AccessLog:
 
 def _thread(fiber: Fiber) -> tuple[str, int]:
     return fiber.process.key, fiber.number
+
+
+def _function(frame: FrameType) -> str:
+    return frame.f_code.co_qualname.rpartition("<locals>.")[2]
 
 
 def _value(owner: Any, name: str) -> Any:
@@ -139,4 +145,7 @@ def _text(value: Any) -> str:
         text = text if kind in PLAIN else text[text.find(f"{kind.__name__}(") :]
         if len(text) <= LONGEST_VALUE:
             return text
+        stamp = getattr(getattr(value, "header", None), "stamp", None)
+        if stamp is not None:
+            return f"a {kind.__name__} with stamp {since_start(stamp):.4g} s"
     return f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"

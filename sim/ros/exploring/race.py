@@ -29,7 +29,7 @@ def _in_preemption(log: AccessLog, gap: Gap) -> str:
     after = [each for each in log.accesses[end:] if each.thread == gap.thread][:SOON]
     after = gap.planned if gap.end is None else after
     meanwhile = log.accesses[gap.begin : end][::-1]
-    here = {each.function for each in after[:1]}
+    here = {gap.function, *(each.function for each in after[:1])}  # a line that calls another one is in both
     for early in before:
         if early.function in here:
             later = next((each for each in after if each.what == early.what and each.kind != READ), None)
