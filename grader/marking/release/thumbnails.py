@@ -33,6 +33,7 @@ SHOWN = {
     "14_localization/lesson": ("truth-run", "world"),
     "14_localization/covariance": ("whole-run", "world"),
     "14_localization/localization": ("whole-run", "world"),
+    "15_races/threads": ("whole-run", "world"),
 }
 SVG = re.compile(r"<svg .*</svg>\n", re.DOTALL)
 
