@@ -35,13 +35,14 @@ from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_settings import TestSettings as Settings
 from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_testing import TestTesting as Testing
+from tests.exercises.test_threads import TestThreads as Threads
 from tests.exercises.test_topics import TestTopics as Topics
 from tests.exercises.test_warehouse import TestWarehouse as Warehouse
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
     *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Lifecycle),
-    *(Warehouse, Delivery, Bags, Covariance, Localization, Races),
+    *(Warehouse, Delivery, Bags, Covariance, Localization, Races, Threads),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),
