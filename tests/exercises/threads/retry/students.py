@@ -340,6 +340,15 @@ class NeverRetries(Panel):
             self.give_up()
 
 
+class FirstOrderOnly(Panel):
+    orders = 0
+
+    def on_order(self, message):
+        self.orders += 1
+        if self.orders == 1:
+            super().on_order(message)
+
+
 class RetriesForEver(Panel):
     def tick(self):
         if self.pending is not None:
@@ -548,6 +557,7 @@ class WatchesTheScrews(Panel):
 
 
 never_retries = Team(NeverRetries, Dispenser)
+first_order_only = Team(FirstOrderOnly, Dispenser)
 retries_for_ever = Team(RetriesForEver, Dispenser)
 retries_too_rarely = Team(RetriesTooRarely, Dispenser)
 new_id_for_each_retry = Team(NewIdForEachRetry, Dispenser)
