@@ -48,18 +48,29 @@ def definitions(lesson: str) -> str:
                 own |= set(_defined(statement))
             if _is_own(statement, folder) or missing & set(_needed(statement)) or _runs(statement, own):
                 missing |= set(_defined(statement))
-            elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With):
+            elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With) or _adds_folder(statement):
                 kept.append(statement)
     return ast.unparse(ast.Module(kept, []))
 
 
+def _adds_folder(statement: ast.stmt) -> bool:
+    """Whether it adds the folder of another lesson, whose modules are imported next."""
+    return ast.unparse(statement).startswith("sys.path.append(")
+
+
 def _is_own(statement: ast.stmt, folder: Path) -> bool:
     """Whether it imports from our packages, or from a module beside the lesson that does."""
-    if not isinstance(statement, ast.ImportFrom):
-        return False
-    beside = folder / f"{statement.module}.py"
-    inside = ast.parse(beside.read_text(encoding="utf-8")).body if beside.exists() else []
-    return (statement.module or "").split(".")[0] in OWN or any(_is_own(one, folder) for one in inside)
+    if isinstance(statement, ast.ImportFrom):
+        modules = [statement.module or ""]
+    else:
+        modules = [name.name for name in statement.names] if isinstance(statement, ast.Import) else []
+    return any(module.split(".")[0] in OWN or _imports_own(folder / f"{module}.py") for module in modules)
+
+
+def _imports_own(file: Path) -> bool:
+    """Whether a module beside a lesson, if there is such a file, imports from our packages."""
+    statements = ast.parse(file.read_text(encoding="utf-8")).body if file.exists() else []
+    return any(_is_own(statement, file.parent) for statement in statements)
 
 
 def _runs(statement: ast.stmt, own: set[str]) -> bool:
@@ -84,7 +95,7 @@ def _needed(statement: ast.stmt) -> Iterator[str]:
 
 
 def _defined(statement: ast.stmt) -> Iterator[str]:
-    if isinstance(statement, ast.ImportFrom):
+    if isinstance(statement, ast.ImportFrom | ast.Import):
         yield from (name.asname or name.name for name in statement.names)
     elif isinstance(statement, ast.FunctionDef | ast.ClassDef):
         yield statement.name

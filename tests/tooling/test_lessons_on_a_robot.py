@@ -219,3 +219,34 @@ def test_the_three_programs_of_lesson_13_set_out_for_an_order(tmp_path):
         until = "'fetch' in received['/state'] and max(received['/cmd_vel']) > 0.2"
         found = ran(warehouse, tmp_path / "errors", "13_delivery", names, until=until, listen=listen)
     assert (found["ended"], found["errors"]) == ([0, 0, 0], "")
+
+
+@pytest.mark.soak
+def test_the_inspector_of_lesson_14_reports_on_a_robot_s_lidar(yard, tmp_path):
+    found = ran(yard, tmp_path / "errors", "14_localization", ["Inspector"], until="'longest gap' in errors")
+    assert found["ended"] == [0], found["errors"]
+    assert "frames ['base_scan']" in found["errors"]
+
+
+@pytest.mark.soak
+def test_the_fusion_of_lesson_14_publishes_and_ends_quietly(tmp_path):
+    """By SIGTERM: at 120 messages a second, a Ctrl-C once ended as a RuntimeError in the take of a message."""
+    listen = {"/odometry/filtered": ("nav_msgs/msg/Odometry", "pose.pose.orientation.w")}
+    until = "len(received['/odometry/filtered']) > 20"
+    with robot("--world", "lab", "--headless") as lab:
+        lesson, errors = "14_localization/covariance", tmp_path / "errors"
+        found = ran(lab, errors, lesson, ["main"], "SIGTERM", until, listen=listen)
+    assert (found["ended"], found["errors"]) == ([0], "")
+    assert found["received"]["/odometry/filtered"][-1] == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.soak
+def test_the_localizer_of_lesson_14_begins_with_a_click_and_ends_quietly(tmp_path):
+    listen = {"/amcl_pose": ("geometry_msgs/msg/PoseWithCovarianceStamped", "pose.pose.position.x")}
+    with robot("--world", "warehouse", "--headless") as warehouse:
+        programs = ["localizer.main", {"name": "Click", "subscribers": {"/initialpose": 1}}]
+        until = "len(received['/amcl_pose']) > 10"
+        lesson, errors = "14_localization/localization", tmp_path / "errors"
+        found = ran(warehouse, errors, lesson, programs, "SIGTERM", until, listen=listen)
+    assert (found["ended"], found["errors"]) == ([0, 0], "")
+    assert found["received"]["/amcl_pose"][-1] == pytest.approx(0.15, abs=0.5)

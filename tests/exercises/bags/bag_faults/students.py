@@ -255,6 +255,47 @@ class Entropy(Doctor):
         return -float(shares @ np.log(shares))
 
 
+class StepFit(Doctor):
+    """A design of its own: the step that fits the ages of a sensor best, by least squares."""
+
+    def clock(self):
+        for topic, rows in (("/scan", self.scans), ("/imu/data", self.gyro)):
+            ages, best = np.array(self.ages(rows)), (math.inf, 0.0, 0)
+            for cut in range(len(ages) // 10, len(ages) - len(ages) // 10, max(1, len(ages) // 200)):
+                before, after = np.median(ages[:cut]), np.median(ages[cut:])
+                miss = np.abs(ages[:cut] - before).sum() + np.abs(ages[cut:] - after).sum()
+                best = min(best, (float(miss), float(before - after), cut))
+            _, jump, cut = best
+            if abs(jump) > 0.08:
+                return "clock_offset", jump, topic, rows[cut + (len(rows) - cut) // 2][0]
+        return None
+
+
+class MedianRatio(Doctor):
+    """A design of its own: the wheels' factor is the median of the ratios in turns."""
+
+    def wheels(self):
+        wheels, gyro, stamps = self.rates()
+        turns = np.abs(gyro) > 0.3
+        factor = float(np.median(wheels[turns] / gyro[turns]))
+        if abs(factor - 1.0) > 0.03:
+            return "wheel_radius", factor, "/tf", float(stamps[turns][-1])
+        return None
+
+
+class ImpliedSpeed(Doctor):
+    """A design of its own: between two messages of two odometries the robot would be faster than it can be."""
+
+    def doubled(self):
+        steps = []
+        for one, other in itertools.pairwise(sorted(self.odom)):
+            if other[0] > one[0] and math.dist(one[2:4], other[2:4]) / (other[0] - one[0]) > 3.0:
+                steps.append((math.dist(one[2:4], other[2:4]), one[0]))
+        if len(steps) < 20:
+            return None
+        return "two_odometries", statistics.median(step for step, _ in steps), "/odom", steps[len(steps) // 2][1]
+
+
 class AlwaysNone(Doctor):
     def diagnose(self):
         return ("none",)
