@@ -230,7 +230,7 @@ def test_the_inspector_of_lesson_14_reports_on_a_robot_s_lidar(yard, tmp_path):
 
 @pytest.mark.soak
 def test_the_fusion_of_lesson_14_publishes_and_ends_quietly(tmp_path):
-    """By SIGTERM: at 120 messages a second, a Ctrl-C once ended as a RuntimeError in the take of a message."""
+    """By SIGTERM: at 120 messages a second, a Ctrl-C once became a RuntimeError in a take."""
     listen = {"/odometry/filtered": ("nav_msgs/msg/Odometry", "pose.pose.orientation.w")}
     until = "len(received['/odometry/filtered']) > 20"
     with robot("--world", "lab", "--headless") as lab:
