@@ -13,7 +13,7 @@ from sim.evidence import Seconds
 TICK = 0.02  # s
 IMAGE, SCAN = "/camera/image_raw", "/scan"
 PERIODS = {IMAGE: 10, SCAN: 5}  # ticks between two measurements
-LATE, SOON = (3, 13), (0, 3)  # ticks that messages are on their way, from and below: of one sensor, of the other
+LATE, SOON = (3, 13), (0, 3)  # ticks that messages are on their way, from and below; of either sensor
 OFFSET, LOST = 1, 0.1  # ticks by which an image's moment differs from a scan's; the share that gets lost
 FIRST, LAST, HELD, PACE = 50, 1150, (550, 800), 1  # ticks; a stall; between two messages after one
 SECONDS: Seconds = 26.0
