@@ -8,6 +8,7 @@ from grader.exercise import Exercise, Scenario
 from grader.exercises.lifecycle.bringup.managed_nodes import (
     NODES,
     SHUTDOWN,
+    interrupted,
     never_active,
     never_configured,
     robot,
@@ -36,12 +37,15 @@ EARLY = ("call_async returns at once, and the transition takes a moment. Wait fo
 ORDER = "Go through NODES in their order, first with configure for all three, then with activate."
 AGAIN = "While success is False, request the same transition again: at most {} times in all."
 END = "Count the requests: after {} failures, return without requesting anything else but shutdown."
+INTERRUPTED = ("It was called while the bringup was waiting for a response: shut down in this case, too, and "
+               "don't take that response for the one to your next request.")
 
 bringup = Exercise("bringup", "Bring up a robot, and shut it down", may_end=True, scenarios=[
     Scenario("room", 12, 1, robot, name="recovers"),
     Scenario("room", 12, 2, robot, name="recovers"),
     Scenario("room", 8, 1, never_configured, name="broken"),
     Scenario("room", 8, 5, never_active, name="broken"),
+    Scenario("room", 6, 3, interrupted, name="interrupted"),
 ], variants=Variants(
     {"tries": (3, 4, 5), "word": ("three", "four", "five"), "last": ("third", "fourth", "fifth")},
     texts=("at most **{word} times**", "the {last} time", "up to {word} times", "failed {word} times",
@@ -62,7 +66,7 @@ def requests_transitions(run: Recording) -> None:
         raise Missed(f"one of the transitions {', '.join((*UP, *DOWN))}", unknown.text, hint)
 
 
-@bringup.check(4, after=requests_transitions)
+@bringup.check(4, after=requests_transitions, only=("recovers", "broken"))
 def configures_in_order(run: Recording) -> None:
     """Each node is configured only when the one before it is inactive."""
     for step in steps(run, "configure"):
@@ -107,7 +111,7 @@ def activates_in_order(run: Recording) -> Seconds:
     return end
 
 
-@bringup.check(4, after=activates_in_order, only="recovers")
+@bringup.check(3, after=activates_in_order, only="recovers")
 def shuts_down_in_reverse(run: Recording, end: Seconds) -> None:
     """When /bringup/shutdown (Trigger) is called, the three are shut down in reverse order."""
     offers(run, SHUTDOWN, "std_srvs/srv/Trigger")
@@ -116,6 +120,17 @@ def shuts_down_in_reverse(run: Recording, end: Seconds) -> None:
     if not is_success(call):
         guess = "response.success = True, and return response."
         raise wrong_response(f"success=True for {call_text(call)}", call, guess, credit=0.5)
+
+
+@bringup.check(1, after=requests_transitions, only="interrupted")
+def ends_during_the_bringup(run: Recording) -> None:
+    """If /bringup/shutdown is called during the bringup, the three are shut down in the same way."""
+    offers(run, SHUTDOWN, "std_srvs/srv/Trigger")
+    try:
+        require_reverse(run, course_calls(run, SHUTDOWN)[0].requested or 0.0)
+    except Missed as missed:
+        missed.hint = INTERRUPTED
+        raise
 
 
 @bringup.check(3, after=configures_in_order, only="broken")

@@ -21,6 +21,7 @@ from grader.companions.service_clients import call_at
 NODES = ("sensor", "filter", "controller")  # in the order in which they are brought up
 SHUTDOWN = "/bringup/shutdown"
 ALWAYS = 1000  # failures; more than anyone tries
+DURING = 0.7, 1.0  # s: the configurations take longer, as there are six requests of 0.1 s or more
 AHEAD, NEAR = 0.6, 0.5  # rad to either side, m
 SPEED, TURN = 0.2, 0.8  # m/s, rad/s
 
@@ -139,12 +140,15 @@ class RoomDriver(ManagedNode):
 
 
 class ShutdownOperator(Node):
-    """Calls /bringup/shutdown (Trigger) once, when the robot has been driving for a while."""
+    """Calls /bringup/shutdown (Trigger) once, when the robot has been driving for a while.
 
-    def __init__(self) -> None:
+    between: the earliest and the latest time for it, s.
+    """
+
+    def __init__(self, between: tuple[float, float] = (8.0, 9.0)) -> None:
         super().__init__("operator")
         self.client = self.create_client(Trigger, SHUTDOWN)
-        call_at(self, random.uniform(8.0, 9.0), self.end)
+        call_at(self, random.uniform(*between), self.end)
 
     def end(self) -> None:
         """Request the shutdown."""
@@ -153,8 +157,12 @@ class ShutdownOperator(Node):
 
 def robot(seed: int) -> Sequence[Callable[[], Any]]:
     """Return the three nodes, two of which can't be configured at first, and the operator."""
-    once, twice = random.Random(seed).sample(NODES, 2)
-    return [*_nodes({once: 1, twice: 2}, "configure"), ShutdownOperator]
+    return [*_slow_to_configure(seed), ShutdownOperator]
+
+
+def interrupted(seed: int) -> Sequence[Callable[[], Any]]:
+    """Return the same nodes, and an operator who calls while they are being configured."""
+    return [*_slow_to_configure(seed), functools.partial(ShutdownOperator, DURING)]
 
 
 def never_configured(seed: int) -> Sequence[Callable[[], Any]]:
@@ -165,6 +173,11 @@ def never_configured(seed: int) -> Sequence[Callable[[], Any]]:
 def never_active(seed: int) -> Sequence[Callable[[], Any]]:
     """Return the three nodes, one of which can't be activated: not the last."""
     return _nodes({random.Random(seed).choice(NODES[:-1]): ALWAYS}, "activate")
+
+
+def _slow_to_configure(seed: int) -> list[Callable[[], Any]]:
+    once, twice = random.Random(seed).sample(NODES, 2)
+    return _nodes({once: 1, twice: 2}, "configure")
 
 
 def _nodes(failures: dict[str, int], transition: str) -> list[Callable[[], Any]]:

@@ -80,7 +80,7 @@ class DoneCallbacks(Node):
         super().__init__("bringup")
         self.managed = {name: self.create_client(ChangeState, f"/{name}/change_state") for name in NODES}
         self.create_service(Trigger, "/bringup/shutdown", self.on_shutdown)
-        self.plan, self.failures = list(PLAN), 0
+        self.plan, self.failures, self.waiting = list(PLAN), 0, False
         self.timer = self.create_timer(0.1, self.start)
 
     def start(self):
@@ -90,23 +90,29 @@ class DoneCallbacks(Node):
 
     def next(self):
         if self.plan:
-            label, name = self.plan[0]
-            self.managed[name].call_async(request_of(label)).add_done_callback(self.on_response)
+            self.waiting, (label, name) = True, self.plan[0]
+            future = self.managed[name].call_async(request_of(label))
+            future.add_done_callback(lambda future: self.on_response(label, name, future))
 
-    def on_response(self, future):
-        label, name = self.plan[0]
-        if future.result().success or label == "shutdown":
+    def on_response(self, label, name, future):
+        self.waiting = False
+        if self.plan[:1] == [(label, name)]:  # else a shutdown has changed the plan
+            self.judge(label, name, future.result().success)
+        self.next()
+
+    def judge(self, label, name, success):
+        if success or label == "shutdown":
             self.plan, self.failures = self.plan[1:], 0
         else:
             self.failures += 1
             if self.failures == 3:
                 self.get_logger().error(f"{name} failed to {label}")
                 self.plan = [("shutdown", each) for each in reversed(NODES)]
-        self.next()
 
     def on_shutdown(self, request, response):
         self.plan = [("shutdown", each) for each in reversed(NODES)]
-        self.next()
+        if not self.waiting:
+            self.next()
         response.success = True
         return response
 
@@ -119,6 +125,7 @@ class StateMachine(Node):
         self.managed = {name: self.create_client(ChangeState, f"/{name}/change_state") for name in NODES}
         self.create_service(Trigger, "/bringup/shutdown", self.on_shutdown)
         self.plan, self.future, self.failures, self.pause = list(PLAN), None, 0, 0
+        self.sent = None
         self.create_timer(0.05, self.tick)
 
     def tick(self):
@@ -128,9 +135,11 @@ class StateMachine(Node):
         label, name = self.plan[0]
         if self.future is None:
             if self.managed[name].service_is_ready():
-                self.future = self.managed[name].call_async(request_of(label))
+                self.sent, self.future = (label, name), self.managed[name].call_async(request_of(label))
         elif self.future.done():
             success, self.future = self.future.result().success, None
+            if self.sent != (label, name):
+                return  # a shutdown has changed the plan
             if success or label == "shutdown":
                 self.plan.pop(0)
                 self.failures = 0
@@ -307,9 +316,13 @@ class FollowsEvents(DoneCallbacks):
             self.plan, self.failures = self.plan[1:], 0
             self.next()
 
-    def on_response(self, future):
-        if not future.result().success:
-            super().on_response(future)
+    def on_response(self, label, name, future):
+        if not future.result().success and self.plan[:1] == [(label, name)]:
+            super().on_response(label, name, future)
+
+    def on_shutdown(self, request, response):
+        self.waiting = False
+        return super().on_shutdown(request, response)
 
 
 class Steps(Node):
@@ -611,3 +624,31 @@ class SendsThreeAtOnce(Bringup):
     async def try_to(self, name, label):
         futures = [self.managed[name].call_async(request_of(label)) for _ in range(3)]
         return any([(await future).success for future in futures])
+
+
+class ShutsDownOnlyWhatIsUp(Bringup):
+    """Agrees to a shutdown during the bringup, and goes on with the bringup."""
+
+    up = False
+
+    async def bring_up(self):
+        await super().bring_up()
+        self.up = True
+
+    async def on_shutdown(self, request, response):
+        if self.up:
+            await self.shut_down()
+        response.success = True
+        return response
+
+
+class TakesTheNextResponse(DoneCallbacks):
+    """Takes the response that the bringup is waiting for as that of the first shutdown."""
+
+    def on_response(self, label, name, future):
+        if self.plan:
+            super().on_response(*self.plan[0], future)
+
+    def on_shutdown(self, request, response):
+        self.waiting = False
+        return super().on_shutdown(request, response)
