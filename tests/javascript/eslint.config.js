@@ -23,6 +23,6 @@ export default [
     languageOptions: { sourceType: "script" },
     rules: { "no-undef": "off", "no-unused-vars": ["error", { vars: "local", argsIgnorePattern: "^_", caughtErrors: "none" }] },
   },
-  { files: ["sim/view/web/live.js"], languageOptions: { sourceType: "module" } },
+  { files: ["sim/view/web/live.js", "sim/view/web/order_game.js"], languageOptions: { sourceType: "module" } },
   { files: ["tests/javascript/*.js"], languageOptions: { globals: globals.node } },
 ];

@@ -76,7 +76,7 @@ def sends_a_goal_for_each_distance(run: Recording) -> list[Goal]:
                 saw = "; ".join(f"target.x={one.target.x:g}, speed={one.speed:g}" for one in sent) or "none"
                 goal = f"target.x={row.message.data:g} and speed={SPEED:g}"
                 expected = f"one goal at {row.stamp:.3g} s, with {goal}"
-                raise Missed(expected, saw, credit=number / len(wanted))
+                raise Missed(expected, saw, credit=number / len(wanted), measured=goals)
     return goals
 
 

@@ -18,6 +18,8 @@ STATES = {
     GoalStatus.STATUS_ABORTED: "aborted",
 }
 
+PARTS = ("_Attempt",)
+
 
 class Commander(Node):
     """As one would write it; the wrong ones change one thing each."""

@@ -14,6 +14,8 @@ from rclpy.qos import qos_profile_sensor_data
 from rclpy.time import Time
 from sensor_msgs.msg import Image, LaserScan, TimeReference
 
+PARTS = ("_seconds",)
+
 
 def _seconds(msg):
     return Time.from_msg(msg.header.stamp).nanoseconds / 1e9
