@@ -16,7 +16,7 @@ from sim.view.javascript import script
 HOW = "Run this cell to play."
 
 
-class Game(Protocol):
+class ScheduledNode(Protocol):
     """A node, and the picks so far; as of ByHand in sim/ros/exploring."""
 
     position: Any
@@ -43,7 +43,7 @@ class OrderGame(anywidget.AnyWidget):
     _esm = script("order_game.js")
     state = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, game: Game, watch: Callable[[Recording], str] | None = None) -> None:
+    def __init__(self, game: ScheduledNode, watch: Callable[[Recording], str] | None = None) -> None:
         super().__init__()
         self._game, self._watch = game, watch
         self.orders = 0  # that were played to the end

@@ -22,7 +22,7 @@ Holds = Callable[[Recording], bool]
 
 
 @dataclass
-class Call:
+class DueCallback:
     """One callback that is due. stop: the statement that comes next; None without threads, and at the end."""
 
     name: str
@@ -39,14 +39,14 @@ class Call:
 
 @dataclass
 class Position:
-    """How far the callbacks are after some picks.
+    """The state of the callbacks after some picks.
 
     choices: the numbers that can be picked next. done: what each pick ran, in words. values: the node's
     attributes. lines: the source of each call's method, with line numbers. holds: None until the end; then
     whether `holds` is true. text: the state in a sentence.
     """
 
-    calls: list[Call] = field(default_factory=list)
+    calls: list[DueCallback] = field(default_factory=list)
     choices: list[int] = field(default_factory=list)
     done: list[str] = field(default_factory=list)
     values: dict[str, str] = field(default_factory=dict)
@@ -102,7 +102,7 @@ class ByHand:
         def main() -> None:
             rclpy.init()
             node = self._node()
-            found.calls = [Call(name, tuple(arguments)) for name, *arguments in self._calls]
+            found.calls = [DueCallback(name, tuple(arguments)) for name, *arguments in self._calls]
             found.lines = [source_lines(getattr(node, call.name)) for call in found.calls]
             for call in found.calls if self.threads else ():
                 call.steps = in_lines(getattr(node, call.name), *call.arguments)
@@ -123,7 +123,7 @@ class ByHand:
         self._judge(found, recording)
         return found
 
-    def _continue(self, node: Any, number: int, call: Call) -> str:
+    def _continue(self, node: Any, number: int, call: DueCallback) -> str:
         """Run a call's next statement, or all of it without threads; return what ran."""
         text, stop = f"{number} {call.name}()", call.stop
         call.state, call.stop = DONE, None  # if it fails, too
@@ -134,7 +134,7 @@ class ByHand:
         call.state = DONE if call.stop is None else RUNNING
         return f"{text} line {stop.line}" if stop is not None else text
 
-    def _choices(self, calls: list[Call]) -> list[int]:
+    def _choices(self, calls: list[DueCallback]) -> list[int]:
         """The numbers of the calls that can continue: one publisher's messages come in their order."""
         found = []
         for index, call in enumerate(calls):

@@ -15,7 +15,7 @@ SILENT = ast.Pass | ast.Global | ast.Nonlocal | ast.FunctionDef | ast.ClassDef
 
 
 class Stop(NamedTuple):
-    """Where a callback stops: before a line, and the locks that the statement there takes."""
+    """The place where a callback stops: before a line, and the locks that the statement there takes."""
 
     line: int
     locks: tuple[Any, ...] = ()
