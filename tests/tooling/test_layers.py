@@ -35,7 +35,7 @@ PUBLIC_MODULES = {"sim", "sim.view", "grader", "grader.exercises"}
 # The packages and modules of sim/ros, from the bottom: each imports only from itself and those before it.
 SIM_ROS = (
     *("bundled_programs", "workspaces", "packages", "absent_names", "left_out", "parameter_sources"),
-    *("messages", "built_interfaces", "sourcing"),
+    *("rclpy_cpp", "messages", "built_interfaces", "sourcing"),
     *("fibers", "recorder", "transport", "engine", "hooks", "robots"),
     *("ground_truth", "latest", "launching", "bags", "session", "play"),
     *("remote", "run", "exploring", "realtime"),

@@ -24,29 +24,29 @@ DIED = "died"  # what is logged then, so that checks know
 PLAIN, CROSSING, NEWER, RESTART = SCENARIOS = "plain", "crossing", "newer", "restart"
 
 
-class Step(NamedTuple):
+class DriveStep(NamedTuple):
     """One message of the user: a distance (m), or None for a stop."""
 
     stamp: Seconds
     meters: float | None
 
 
-class Plan(NamedTuple):
-    """What happens in a run. dies: when the server dies, and for how long it is away."""
+class DrivePlan(NamedTuple):
+    """All that happens in a run. dies: when the server dies, and for how long it is away."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[DriveStep, ...]
     dies: tuple[tuple[Seconds, Seconds], ...]
 
 
-def plan_of(name: str, seed: int) -> Plan:
+def plan_of(name: str, seed: int) -> DrivePlan:
     """Return what happens in a scenario; all times are drawn, those of one thing far from those of others."""
     draw = random.Random(f"{name} {seed}")
-    steps: list[Step] = []
+    steps: list[DriveStep] = []
     dies: list[tuple[Seconds, Seconds]] = []
     now = 2.0
     for kind in draw.sample(KINDS[name], len(KINDS[name])):
         now = _add(kind, now + draw.uniform(0.0, 0.5), draw, steps, dies)
-    return Plan(tuple(steps), tuple(dies))
+    return DrivePlan(tuple(steps), tuple(dies))
 
 
 LONGEST = {PLAIN: 16.0, CROSSING: 22.0, NEWER: 23.0, RESTART: 29.0}  # s
@@ -59,32 +59,32 @@ KINDS = {
 
 
 def _add(
-    kind: str, now: Seconds, draw: random.Random, steps: list[Step], dies: list[tuple[Seconds, Seconds]]
+    kind: str, now: Seconds, draw: random.Random, steps: list[DriveStep], dies: list[tuple[Seconds, Seconds]]
 ) -> Seconds:
     """Add one episode that begins now; returns when the next one may begin."""
     ticks = draw.randint(12, 18)
     far, lasts = ticks * TICK * SPEED, ACCEPTS_AFTER + ticks * TICK
-    steps.append(Step(now, far))
+    steps.append(DriveStep(now, far))
     if kind == "canceled":
-        steps.append(Step(now + draw.uniform(0.7, lasts - 0.4), None))
+        steps.append(DriveStep(now + draw.uniform(0.7, lasts - 0.4), None))
     elif kind == "too late":  # between the success and its result
-        steps.append(Step(now + lasts + 0.15, None))
+        steps.append(DriveStep(now + lasts + 0.15, None))
     elif kind == "last moment":  # the server accepts the cancel request, and then succeeds
-        steps.append(Step(now + lasts - 0.05, None))
+        steps.append(DriveStep(now + lasts - 0.05, None))
     elif kind == "too early":  # before the server has accepted the goal
-        steps.append(Step(now + 0.1, None))
+        steps.append(DriveStep(now + 0.1, None))
     elif kind == "replaced":
-        steps.append(Step(now + draw.uniform(0.6, 0.9), far))
+        steps.append(DriveStep(now + draw.uniform(0.6, 0.9), far))
     elif kind == "replaced and stopped":
         newer = now + draw.uniform(0.6, 0.9)
-        steps += [Step(newer, far), Step(newer + 0.1, None)]
+        steps += [DriveStep(newer, far), DriveStep(newer + 0.1, None)]
     elif kind == "replaced at once":
-        steps.append(Step(now + 0.1, far))
+        steps.append(DriveStep(now + 0.1, far))
     if kind in KINDS[RESTART]:
         away = draw.uniform(1.5, 2.0) if kind == "away" else 0.0
         dies.append((now + draw.uniform(0.7, lasts - 0.4), away))
         now += 5.0 + away
-        steps.append(Step(now, far))
+        steps.append(DriveStep(now, far))
     return now + lasts + 4.0
 
 
@@ -95,7 +95,7 @@ class PreemptingServer(PausableNode):
     replaced, it sends no zeros. When it dies, nothing is left of it, and a new one knows no earlier goal.
     """
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: DrivePlan) -> None:
         super().__init__("drive_server")
         self.publisher = self.create_publisher(Twist, "/server/cmd_vel", 10)
         self.group = ReentrantCallbackGroup()
@@ -165,7 +165,7 @@ class Multiplexer(Node):
 class User(Node):
     """Publishes distances (m) on /distance, and Empty messages on /stop."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: DrivePlan) -> None:
         super().__init__("user")
         self.distances = self.create_publisher(Float64, "/distance", 10)
         self.stops = self.create_publisher(Empty, "/stop", 10)

@@ -18,7 +18,7 @@ Trace = tuple[str, ...]
 
 
 class State(NamedTuple):
-    """How far the node has come: the next statement of each callback, what each has read, and the total."""
+    """The progress of a node: the next statement of each callback, what each has read, and the total."""
 
     at: dict[str, int]
     read: dict[str, int]

@@ -25,7 +25,7 @@ retry = Exercise("retry", "Commands over a bad network", seconds=1.0 + APART * O
                  seeds=(1, 2))  # fmt: skip
 
 
-class Order(NamedTuple):
+class DispenserOrder(NamedTuple):
     """An order of the run, and what happened until the next one.
 
     lost: what the link didn't carry. begin, end: when it was placed, and when the next one was (s).
@@ -102,7 +102,7 @@ def gives_up(run: Recording) -> None:
         _sends_nothing_after(order, order.reports[0].stamp, "An order that was given up is sent no more.")
 
 
-def _orders(run: Recording) -> list[Order]:
+def _orders(run: Recording) -> list[DispenserOrder]:
     """All orders of the run that had their time, in their order."""
     placed = from_course(run, "/orders", at_least=ORDERS)
     begins = [row.stamp for row in run.messages("/orders") if row.from_course]
@@ -110,11 +110,11 @@ def _orders(run: Recording) -> list[Order]:
     orders = []
     for row, lost, begin, end in zip(placed, draw_conditions(run.seed), begins, ends, strict=True):
         within = [_between(from_student(run, topic), begin, end) for topic in (SENT, SCREWS, REPORTS)]
-        orders.append(Order(row.message.data, lost, begin, end, *within))
+        orders.append(DispenserOrder(row.message.data, lost, begin, end, *within))
     return orders
 
 
-def _carried(run: Recording) -> list[Order]:
+def _carried(run: Recording) -> list[DispenserOrder]:
     """The orders whose messages reach the dispenser."""
     return [order for order in _orders(run) if order.lost != NEITHER]
 
@@ -123,19 +123,19 @@ def _between(rows: list[Message], begin: Seconds, end: Seconds) -> list[Message]
     return [row for row in rows if begin <= row.stamp < end]
 
 
-def _sends_nothing_after(order: Order, reported: Seconds, hint: str) -> None:
+def _sends_nothing_after(order: DispenserOrder, reported: Seconds, hint: str) -> None:
     later = [row for row in order.sent if row.stamp > reported + QUIET]
     if later:
         expected = f"nothing on {SENT} from the report at {reported:.4g} s until the next order"
         raise Missed(expected, f"{len(later)} messages, the first at {later[0].stamp:.4g} s", hint)
 
 
-def _amounts(order: Order) -> str:
+def _amounts(order: DispenserOrder) -> str:
     shown = [f"{row.message.data} at {row.stamp:.4g} s" for row in order.effects[:4]]
     return ", ".join(shown) or "nothing until the next order"
 
 
-def _why_nothing(run: Recording, order: Order) -> str:
+def _why_nothing(run: Recording, order: DispenserOrder) -> str:
     """Return why an order may have had no effect."""
     if not order.sent:
         return f"The panel sent nothing on {SENT} after this order."
@@ -149,7 +149,7 @@ def _why_nothing(run: Recording, order: Order) -> str:
     return "The panel's messages for this order were lost. Send it again every 0.1 s until it's answered."
 
 
-def _why_again(run: Recording, order: Order) -> str:
+def _why_again(run: Recording, order: DispenserOrder) -> str:
     before = _between(run.messages(ARRIVED), order.begin, order.effects[0].stamp + EDGE)
     if order.lost == NEITHER and not before:
         return "No message reached the dispenser, so it can't know this order. Use only the link."
@@ -157,14 +157,14 @@ def _why_again(run: Recording, order: Order) -> str:
     return NEW_ID if len(order.sent) > 1 and len(texts) == len(order.sent) else ""
 
 
-def _why_not_done(run: Recording, order: Order) -> str:
+def _why_not_done(run: Recording, order: DispenserOrder) -> str:
     arrived = _between(run.messages(ARRIVED), order.begin, order.end)
     if len(_between(from_student(run, ANSWERED), order.begin, order.end)) < len(arrived):
         return "Answer each message that arrives, also a known one: the first answer may have been lost."
     return "Report when the answer with this order's id arrives, and then forget the order."
 
 
-def _why_too_early(run: Recording, order: Order) -> str:
+def _why_too_early(run: Recording, order: DispenserOrder) -> str:
     reported = order.reports[0].stamp
     if not _between(run.messages(CAME_BACK), order.begin, reported + EDGE):
         return "Until an answer has come back, the panel doesn't know what was done. Report when it comes."
@@ -173,7 +173,7 @@ def _why_too_early(run: Recording, order: Order) -> str:
     return "An answer to an earlier order may arrive late: compare the id in it with this order's id."
 
 
-def _arrived(run: Recording, order: Order, end: Seconds) -> bool:
+def _arrived(run: Recording, order: DispenserOrder, end: Seconds) -> bool:
     """Return whether a message that the panel sent for this order reached the dispenser before a time."""
     texts = {row.message.data for row in order.sent}
     return any(row.message.data in texts for row in _between(run.messages(ARRIVED), order.begin, end))

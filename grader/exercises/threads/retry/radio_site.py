@@ -60,7 +60,7 @@ class RadioSite(Node):
 
     @property
     def condition(self) -> str:
-        """What the link doesn't carry at this time; "" if it carries both."""
+        """The part that the link doesn't carry at this time: "" if it carries both."""
         return self.conditions[self.number] if self.number >= 0 else ""
 
     def carry_badly(self, publisher: Publisher, message: String) -> None:
