@@ -131,6 +131,10 @@ def agrees_about_the_newest(run: Recording, goals: list[Goal]) -> None:
 def notices_a_restart(run: Recording, goals: list[Goal]) -> None:
     """Within a second of the server's death /state is “lost”; the next goal is as usual."""
     _agrees(run, goals)
+    distances = len(run.received("/distance"))
+    if len(goals) < distances:
+        unsent = Change(0.0, DRIVING, 0.0, "")
+        raise Missed(f"{distances} goals", f"{len(goals)}", about=(unsent, "no goal"))
 
 
 @crossing.check(3, after=sends_a_goal_for_each_distance)
