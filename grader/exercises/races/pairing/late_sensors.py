@@ -19,8 +19,8 @@ FIRST, LAST, HELD, PACE = 50, 1150, (550, 800), 1  # ticks; a stall; between two
 SECONDS: Seconds = 26.0
 
 
+def sensor_rows(held: str, seed: int) -> dict[int, list[Row]]:
     """The messages of each tick. held: the topic that is late, and held up from 11 s to 16 s."""
-    """What is published in each tick. held: the topic that is late, and held up from 11 s to 16 s."""
     draw = np.random.default_rng([seed, 152])
     rows: dict[int, list[Row]] = {}
     for topic, period in PERIODS.items():
