@@ -21,7 +21,9 @@ class Announcement(NamedTuple):
     sought: str = ""
 
 
-LIVE, REPLAY, PLOT, CARD = (f"{WEB}/{name}.js" for name in ("live", "replay", "plots", "prediction"))
+LIVE, REPLAY, PLOT, CARD, GAME = (
+    f"{WEB}/{name}.js" for name in ("live", "replay", "plots", "prediction", "order_game")
+)
 SUCCESS, PANEL, VALIDATE = (f"{LAB}/{name}.js" for name in ("success", "robot_panel", "validate"))
 RESTARTED = "The kernel was restarted, and the robot is gone."
 STANDALONE = "../sim/standalone/test_page"
@@ -35,6 +37,7 @@ ANNOUNCEMENTS = [Announcement(*row) for row in (
     ("a replay is at an event", REPLAY, "mark.words", "test_picture_page", "touched a wall with its front"),
     ("the cursor of a plot moves", PLOT, "t = ${time} s", "test_replay_in_lab", "t = 3.50 s"),
     ("a prediction is saved", CARD, "Your prediction is saved.", "test_predictions_in_lab"),
+    ("callbacks were picked to the end", GAME, "state.text", "test_order_game_in_lab", "you broke it"),
     ("a check is done", SUCCESS, " points.", "test_success_in_lab"),
     ("a check has full points", SUCCESS, " Full points.", "test_success_in_lab"),
     ("a lesson is done", SUCCESS, " done", "test_success_in_lab"),

@@ -25,7 +25,7 @@ def test_what_needs_no_browser_passes_its_unit_tests():
 
 @node
 @pytest.mark.skipif(not (FOLDER / "node_modules/.bin/tsc").exists(), reason=NO_TOOLS)
-@pytest.mark.parametrize("page", ["live", "replay", "plots", "pages"])
+@pytest.mark.parametrize("page", ["live", "replay", "plots", "prediction", "order_game", "pages"])
 def test_types_are_right(page):
     passes(NODE, "node_modules/typescript/bin/tsc", "-p", f"tsconfig.{page}.json")
 
