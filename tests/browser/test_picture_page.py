@@ -194,6 +194,14 @@ def test_a_replay_that_plays_at_once_does_so_unless_motion_shall_be_reduced(page
     page.emulate_media(reduced_motion="null")
 
 
+LEAST_TIME = """root => {
+    const time = root.querySelector('.time b');
+    window.leastTime = Infinity;
+    new MutationObserver(() => { window.leastTime = Math.min(window.leastTime, Number(time.textContent)); })
+        .observe(time, { childList: true, characterData: true, subtree: true });
+}"""
+
+
 def test_an_animation_plays_by_itself_when_it_comes_into_sight(page, rammed, tmp_path):
     html = animate(rammed, speed=10).html
     load(page, f'<div style="height: 3000px"></div>{html}', tmp_path)
@@ -201,8 +209,9 @@ def test_an_animation_plays_by_itself_when_it_comes_into_sight(page, rammed, tmp
     picture = Picture(page.locator(".ros2-view"))
     assert picture.time() == pytest.approx(rammed.ended.stamp, abs=0.01)
     assert picture.root.locator(".failure").inner_text() == rammed.failure
+    picture.root.evaluate(LEAST_TIME)  # it may have played before anything here can look
     picture.root.scroll_into_view_if_needed()
-    picture.wait_until("root => Number(root.querySelector('.time b').textContent) < 5")
+    page.wait_for_function("window.leastTime < 5")
     picture.wait_for_time(rammed.ended.stamp - 0.02)
     assert page.faults == []
 
