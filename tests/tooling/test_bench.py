@@ -49,7 +49,7 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
         "the benchmarks are scenario, startup, world, transforms, repeats, orders, digests, "
-        "grading, marking, pace, view, navigator, capstone, hub.\n"
+        "grading, marking, pace, view, navigator, localized, capstone, hub.\n"
     )
 
 

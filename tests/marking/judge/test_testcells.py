@@ -17,7 +17,7 @@ def notebook(*cells: nbformat.NotebookNode) -> nbformat.NotebookNode:
 @pytest.mark.parametrize("path", sorted(ROOT.glob("exercises/*/*.ipynb")), ids=lambda path: path.stem)
 def test_every_test_cell_of_the_course_names_an_exercise(path):
     found = exercise_names(nbformat.read(path, 4))
-    assert len(found) >= 2
+    assert found
     assert all(isinstance(find_exercise(name), Exercise) for name in found.values())
 
 

@@ -37,12 +37,15 @@ GRACE, LOST_AFTER, SENT = 0.3, 1.0, 0.08  # s: after a result; after the server 
 STANDS_AFTER, STILL = 0.7, 0.02  # s after a goal's end; m
 STEP = 0.1  # s between the moments that are judged
 
-trusting_yard: World = trusting("yard")(0)
-
 crossing = Exercise("crossing", "Both ends agree", scenarios=[
     Scenario(trusting("yard"), LONGEST[name], number, functools.partial(driving, name), name=name)
     for number, name in enumerate(SCENARIOS, 1)
 ])  # fmt: skip
+
+
+def trusting_yard() -> World:
+    """Return the yard, with a robot that obeys its last command until the next one."""
+    return trusting("yard")(0)
 
 SILENCE = ("Silence is no stop: this robot obeys its last command until the next one. Publish a Twist() of "
            "zeros when {when}.")  # fmt: skip

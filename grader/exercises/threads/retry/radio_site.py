@@ -8,6 +8,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from std_msgs.msg import Int32, String
 
+WITH_JUDGE = True  # it knows what the link carries
 FIRST, APART, ORDERS = 1.0, 2.6, 5  # s, s, and their number
 NEITHER, NO_ANSWERS = "neither", "no answers"  # what the link carries for an order, where it isn't both
 MOST_SCREWS = 3  # fewer than the orders that are carried out, so that two of them are equal
