@@ -23,12 +23,12 @@ from grader.exercises.races.crossing.drive_server import (
     SCENARIOS,
     SPEED,
     driving,
+    trusting_yard,
 )
 from grader.geometry.near import is_near
 from grader.responses import EDGE
 from grader.worlds.trusting import trusting
 from sim.evidence import CANCEL_REQUESTED, ENDINGS, Goal, Message, Recording, Seconds
-from sim.world import World
 
 __all__ = ["crossing", "driving", "trusting_yard"]
 
@@ -41,11 +41,6 @@ crossing = Exercise("crossing", "Both ends agree", scenarios=[
     Scenario(trusting("yard"), LONGEST[name], number, functools.partial(driving, name), name=name)
     for number, name in enumerate(SCENARIOS, 1)
 ])  # fmt: skip
-
-
-def trusting_yard() -> World:
-    """Return the yard, with a robot that obeys its last command until the next one."""
-    return trusting("yard")(0)
 
 SILENCE = ("Silence is no stop: this robot obeys its last command until the next one. Publish a Twist() of "
            "zeros when {when}.")  # fmt: skip

@@ -16,7 +16,9 @@ from rclpy.node import Node
 from std_msgs.msg import Empty, Float64
 
 from grader.companions.action_servers import PausableNode
+from grader.worlds.trusting import trusting
 from sim.evidence import Seconds
+from sim.world import World
 
 ACTION, COMMANDS, SPEED = "/drive_on_heading", "/commander/cmd_vel", 0.25  # m/s
 TICK, ACCEPTS_AFTER, RESULT_AFTER, DEAD = 0.1, 0.2, 0.3, 1e5  # s
@@ -194,3 +196,8 @@ def driving(name: str, seed: int) -> list[Any]:
     """The companions of a scenario: "plain", "crossing", "newer" or "restart"."""
     plan = plan_of(name, seed)
     return [Multiplexer, functools.partial(PreemptingServer, plan), functools.partial(User, plan)]
+
+
+def trusting_yard() -> World:
+    """Return the yard, with a robot that obeys its last command until the next one."""
+    return trusting("yard")(0)
