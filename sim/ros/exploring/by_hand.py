@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,6 +18,7 @@ SIMPLE = bool | int | float | str | list | tuple | dict | set | None  # attribut
 LONGEST = 60  # characters of a value that is shown
 WAITING, RUNNING, BLOCKED, DONE = "waiting", "running", "blocked", "done"
 DEADLOCK = "Each callback that isn't done waits for a lock that another one holds: a deadlock."
+ENDLESS = "{}() doesn't go on: it loops, or waits inside a statement, where no other callback can run. Undo."
 
 Holds = Callable[[Recording], bool]
 
@@ -43,7 +45,8 @@ class Position:
 
     choices: the numbers that can be picked next. done: what each pick ran, in words. values: the node's
     attributes. lines: the source of each call's method, with line numbers. holds: None until the end; then
-    whether `holds` is true. text: the state in a sentence.
+    whether `holds` is true. text: the state in a sentence. refusal: why a callback can't be called, or "".
+    unfinished: the callback that didn't end, or "".
     """
 
     calls: list[DueCallback] = field(default_factory=list)
@@ -53,6 +56,8 @@ class Position:
     lines: list[list[tuple[int, str]]] = field(default_factory=list)
     holds: bool | None = None
     text: str = ""
+    refusal: str = ""
+    unfinished: str = ""
     recording: Recording = field(default_factory=Recording)
 
 
@@ -103,13 +108,19 @@ class ByHand:
             rclpy.init()
             node = self._node()
             found.calls = [DueCallback(name, tuple(arguments)) for name, *arguments in self._calls]
+            found.refusal = next(filter(None, (_refusal(node, call) for call in found.calls)), "")
+            if found.refusal:
+                return
             found.lines = [source_lines(getattr(node, call.name)) for call in found.calls]
             for call in found.calls if self.threads else ():
                 call.steps = in_lines(getattr(node, call.name), *call.arguments)
                 call.stop = next(call.steps, None)
             try:
                 for number in self.picks:
-                    found.done.append(self._continue(node, number, found.calls[number - 1]))
+                    call = found.calls[number - 1]
+                    found.unfinished = call.name
+                    found.done.append(self._continue(node, number, call))
+                    found.unfinished = ""
             finally:
                 found.values = _values(node)
                 found.choices = self._choices(found.calls)
@@ -118,6 +129,8 @@ class ByHand:
                         call.steps.close()
 
         recording = run(main, seconds=0.5, quiet=True, expect_error=True)
+        if found.refusal:
+            raise ValueError(found.refusal)
         if not found.lines and recording.errors:
             raise ValueError(f"The node can't be created: {recording.errors[0].text}")
         self._judge(found, recording)
@@ -154,6 +167,8 @@ class ByHand:
             error = recording.errors[0]
             found.choices, found.holds = [], bool(self._holds(recording))
             found.text = f"{found.calls[self.picks[-1] - 1].name}() fails: {error.type}{error.says}"
+        elif found.unfinished:
+            found.choices, found.text = [], ENDLESS.format(found.unfinished)
         elif found.choices:
             found.text = f"Pick {' or '.join(map(str, found.choices))}."
         elif any(call.state == BLOCKED for call in found.calls):
@@ -164,6 +179,20 @@ class ByHand:
         if found.holds is not None:
             result = "It still holds. Try another order." if found.holds else "It doesn't hold: you broke it."
             found.text = f"{found.text} {result}"
+
+
+def _refusal(node: Any, call: DueCallback) -> str:
+    """Say why a callback can't be called as it is due; "" if it can."""
+    method = getattr(node, call.name, None)
+    if not callable(method):
+        return f"The node has no method {call.name}()."
+    if inspect.iscoroutinefunction(method) or inspect.isgeneratorfunction(method):
+        return f"{call.name}() is async or has a yield: `schedule` runs callbacks that are ordinary methods."
+    try:
+        inspect.signature(method).bind(*call.arguments)
+    except TypeError as error:
+        return f"{call.name}() can't be called with what it is given: {error}."
+    return ""
 
 
 def _values(node: Any) -> dict[str, str]:
@@ -189,9 +218,9 @@ def schedule(
     watch: returns a string about the run so far, which is shown: for example, the last command.
 
     Returns the game, which can also be played by its methods `pick`, `undo` and `restart`. Raises
-    ValueError if there are no calls, or the node can't be created.
+    ValueError if there are no calls, one can't be called, or the node can't be created.
     """
-    if not calls:
+    if not calls or not all(isinstance(each, str | tuple | list) and each for each in calls):
         raise ValueError('schedule needs callbacks that are due, such as "on_timer" or ("on_scan", scan).')
     raise_if_outdated((node,))
     game = ByHand(node, calls, holds, threads)

@@ -94,6 +94,17 @@ def _with_stops(body: list[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def _stop_before(statement: ast.stmt) -> ast.stmt:
-    locks: list[ast.expr] = [copy.deepcopy(item.context_expr) for item in getattr(statement, "items", ())]
+    managers = [item.context_expr for item in getattr(statement, "items", ())]
+    match statement:
+        case ast.Expr(ast.Call(ast.Attribute(lock, "acquire"), [], [])):
+            managers.append(lock)
+    locks: list[ast.expr] = [copy.deepcopy(each) for each in managers if _only_names(each)]
     values: list[ast.expr] = [ast.Constant(statement.lineno), ast.Tuple(locks, ast.Load())]
     return ast.copy_location(ast.Expr(ast.Yield(ast.Tuple(values, ast.Load()))), statement)
+
+
+def _only_names(expression: ast.expr) -> bool:
+    """Return whether an expression consists of names, so that looking at its value does nothing else."""
+    while isinstance(expression, ast.Attribute):
+        expression = expression.value
+    return isinstance(expression, ast.Name)

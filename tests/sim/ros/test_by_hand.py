@@ -66,6 +66,41 @@ class Adds(Node):
             self.ended = True
 
 
+class Waits(Node):
+    """Callbacks that wait, or can't be picked at all."""
+
+    def __init__(self):
+        super().__init__("waits")
+        self.lock, self.set = threading.Lock(), threading.Event()
+        self.count = self.managers = 0
+
+    def acquire(self):
+        self.lock.acquire()
+        self.count += 1
+        self.lock.release()
+
+    def manager(self):
+        self.managers += 1
+        return self.lock
+
+    def enter(self):
+        with self.manager():
+            self.count += 1
+
+    def wait(self):
+        self.set.wait()
+
+    def loop(self):
+        while True:
+            self.count += 1
+
+    async def resume(self):
+        """Come back later."""
+
+    def produce(self):
+        yield self.count
+
+
 class Inherits(Adds):
     """Its callback uses `super()`."""
 
@@ -182,3 +217,46 @@ def test_what_can_not_be_played_is_refused():
         schedule(Courier, holds=stopped)
     with pytest.raises(ValueError, match=r"The node can't be created: .*no_such"):
         schedule(lambda: Courier().no_such, "drive", holds=stopped)
+
+
+ASYNC = "() is async or has a yield: `schedule` runs callbacks that are ordinary methods."
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        ("no_such", "The node has no method no_such()."),
+        ("resume", f"resume{ASYNC}"),
+        ("produce", f"produce{ASYNC}"),
+        (("wait", 1), "wait() can't be called with what it is given: too many positional arguments."),
+        (5, 'schedule needs callbacks that are due, such as "on_timer" or ("on_scan", scan).'),
+    ],
+)
+@pytest.mark.parametrize("threads", [True, False])
+def test_a_callback_that_can_not_be_called_is_refused(call, words, threads):
+    with pytest.raises(ValueError, match=f"^{re.escape(words)}$"):
+        schedule(Waits, call, holds=no_errors, threads=threads)
+
+
+def test_a_lock_that_is_acquired_without_a_with_blocks_the_other_callback():
+    game = schedule(Waits, "acquire", "acquire", holds=no_errors, threads=True)
+    assert played(game, 1) == "Pick 1."
+    assert played(game, 1, 1, 2, 2, 2) == "All callbacks are done. It still holds. Try another order."
+    assert game.position.values["count"] == "2"
+
+
+def test_what_a_with_calls_is_called_once():
+    game = schedule(Waits, "enter", holds=no_errors, threads=True)
+    played(game, 1, 1)
+    assert game.position.values["managers"] == "1"
+
+
+@pytest.mark.parametrize(("call", "threads"), [("wait", True), ("wait", False), ("loop", False)])
+def test_a_callback_that_does_not_go_on_is_no_order_in_which_it_holds(call, threads):
+    game = schedule(Waits, call, holds=no_errors, threads=threads)
+    assert played(game, 1) == (
+        f"{call}() doesn't go on: it loops, or waits inside a statement, where no other callback can run. "
+        "Undo."
+    )
+    assert (game.position.holds, game.position.choices) == (None, [])
+    assert game.undo().text == "Pick 1."
