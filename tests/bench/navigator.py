@@ -71,7 +71,7 @@ def drive(main: Callable[[], None], kind: str, seed: int) -> Outcome:
     return Outcome(seed, fault(recording), way / shortest(real), way / recording.stamp)
 
 
-def fault(recording: Recording) -> str:
+def fault(recording: Recording, near: float = NEAR) -> str:
     """Why the robot has not got to its goal; "" if it has, and touched nothing."""
     end, goal = recording.path[-1], recording.world.goal
     if recording.contacts:
@@ -79,7 +79,7 @@ def fault(recording: Recording) -> str:
     if not recording.goals or recording.goals[0].status != "succeeded":
         return f"the goal is {recording.goals[0].status if recording.goals else 'not taken'}"
     left = math.dist(goal, (end.x, end.y))
-    return f"{left:.2f} m away" if left > NEAR else ""
+    return f"{left:.2f} m away" if left > near else ""
 
 
 def main() -> int:
