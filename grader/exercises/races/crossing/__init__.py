@@ -69,7 +69,7 @@ def sends_a_goal_for_each_distance(run: Recording) -> list[Goal]:
     with hinting("In on_distance: goal.target.x = msg.data, goal.speed = 0.25, and send_goal_async(goal)."):
         goals = sends_goals(run, ACTION, "nav2_msgs/action/DriveOnHeading")
         for number, row in enumerate(wanted):
-            sent = [goal.request for goal in goals if 0.0 <= _requested(goal) - row.stamp + EDGE <= SENT]
+            sent = [goal.request for goal in _sent_at_once(goals, row)]
             if [(one.target.x, one.speed) for one in sent] != [(row.message.data, np.float32(SPEED))]:
                 saw = "; ".join(f"target.x={one.target.x:g}, speed={one.speed:g}" for one in sent) or "none"
                 goal = f"target.x={row.message.data:g} and speed={SPEED:g}"
@@ -78,61 +78,56 @@ def sends_a_goal_for_each_distance(run: Recording) -> list[Goal]:
     return goals
 
 
-@crossing.check(2, after=sends_a_goal_for_each_distance, only=PLAIN, hints={
-    "Publish the state when it changes: “driving” in on_response, and in on_result what the status says.":
-        lambda run, change, saw: not saw,
+HINTS = {
+    "The server sends no feedback before it has accepted a goal, and none for 0.3 s before a result: be "
+    "patient.":
+        lambda run, change, saw: saw == LOST,
+    "The server is still there, but drives no more: it may have started again and know nothing of this goal. "
+    "Each piece of feedback is a sign of life: if none arrives for 0.6 s, the goal is lost.":
+        lambda run, change, saw: change.state == LOST,
+    "That is the result of an older goal. Give each goal a number, and ignore what arrives for any but the "
+    "newest.":
+        lambda run, change, saw: saw == "aborted",
+    "The goal had already succeeded when your request arrived, so the server refused it. Only the result "
+    "says how a goal ended.":
+        lambda run, change, saw: change.state == "succeeded" and saw == "canceled",
     "A canceled goal ends with its result, not with the request: publish the state in on_result.":
         lambda run, change, saw: saw == "canceled",
-    "The status of the result is a number, GoalStatus.STATUS_...: publish what it says.": otherwise,
-})
+    "The newest goal has ended, and your node doesn't know: request its result with get_result_async().":
+        lambda run, change, saw: saw == DRIVING,
+    "Publish the state when it changes: “driving” in on_response, and in on_result what the status says.":
+        lambda run, change, saw: not saw,
+    "The status of the result is a number, GoalStatus.STATUS_...: publish what it says.":
+        otherwise,
+}  # fmt: skip
+
+
+@crossing.check(2, after=sends_a_goal_for_each_distance, only=PLAIN, hints=HINTS)
 def agrees_if_nothing_crosses(run: Recording, goals: list[Goal]) -> None:
     """/state is “driving” while a goal is executed, and then “succeeded” or “canceled”."""
     _agrees(run, goals)
 
 
-@crossing.check(3, after=sends_a_goal_for_each_distance, only=CROSSING, hints={
-    "The goal had already succeeded when your request arrived, so the server refused it. Only the result "
-    "says how a goal ended.":
-        lambda run, change, saw: change.state == "succeeded" and saw == "canceled",
-    "Publish a state only when the result has arrived.":
-        otherwise,
-})
+@crossing.check(3, after=sends_a_goal_for_each_distance, only=CROSSING, hints=HINTS)
 def agrees_if_a_stop_crosses(run: Recording, goals: list[Goal]) -> None:
     """/state is right if a stop comes before the goal is accepted, or when it is about to succeed."""
     _stopped_early(run, goals)
     _agrees(run, goals)
 
 
-@crossing.check(3, after=sends_a_goal_for_each_distance, only=NEWER, hints={
-    "That is the result of an older goal. Give each goal a number, and ignore what arrives for any but the "
-    "newest.":
-        lambda run, change, saw: saw == "aborted",
-    "The result of the newest goal counts: request it for each goal with get_result_async().":
-        otherwise,
-})
+@crossing.check(3, after=sends_a_goal_for_each_distance, only=NEWER, hints=HINTS)
 def agrees_about_the_newest(run: Recording, goals: list[Goal]) -> None:
     """If a newer distance replaces an older one, /state is that of the newest goal."""
+    _sent_all(run, goals, "Send a newer goal without waiting: the server aborts the older one by itself.")
     _stopped_early(run, goals)
     _agrees(run, goals)
 
 
-@crossing.check(2, after=sends_a_goal_for_each_distance, only=RESTART, hints={
-    "The server is still there, but drives no more: it may have started again and know nothing of this goal. "
-    "Each piece of feedback is a sign of life: if none arrives for 0.6 s, the goal is lost.":
-        lambda run, change, saw: change.state == LOST,
-    "The server sends no feedback before it has accepted a goal, and none for 0.3 s before a result: be "
-    "patient.":
-        lambda run, change, saw: saw == LOST,
-    "After a loss the next distance is a new goal: reset whatever you remember of the lost one.":
-        otherwise,
-})
+@crossing.check(2, after=sends_a_goal_for_each_distance, only=RESTART, hints=HINTS)
 def notices_a_restart(run: Recording, goals: list[Goal]) -> None:
     """Within a second of the server's death /state is “lost”; the next goal is as usual."""
     _agrees(run, goals)
-    distances = len(run.received("/distance"))
-    if len(goals) < distances:
-        unsent = Change(0.0, DRIVING, 0.0, "")
-        raise Missed(f"{distances} goals", f"{len(goals)}", about=(unsent, "no goal"))
+    _sent_all(run, goals, "After a loss the next distance is a new goal: forget the one that was lost.")
 
 
 @crossing.check(3, after=sends_a_goal_for_each_distance)
@@ -154,6 +149,17 @@ def stops_the_robot(run: Recording, goals: list[Goal]) -> None:
             if change.state != LOST and around:
                 hint = TOO_EARLY
             raise Missed(expected, f"it drove {moved:.2f} m further", hint, picture="path", unsafe=True)
+
+
+def _sent_at_once(goals: list[Goal], row: Message) -> list[Goal]:
+    return [goal for goal in goals if 0.0 <= _requested(goal) - row.stamp + EDGE <= SENT]
+
+
+def _sent_all(run: Recording, goals: list[Goal], hint: str) -> None:
+    """Raise Missed unless each distance was sent as a goal at once."""
+    unsent = [row.stamp for row in run.received("/distance") if not _sent_at_once(goals, row)]
+    if unsent:
+        raise Missed(f"a goal at {unsent[0]:.3g} s", "none", hint)
 
 
 def _agrees(run: Recording, goals: list[Goal]) -> None:
@@ -226,4 +232,5 @@ def _changes(run: Recording, goals: list[Goal]) -> Iterator[Change]:
             yield Change(death, LOST, death + LOST_AFTER, f"the server died at {death:.3g} s")
         elif ended < until:
             known = (goal.received or ended + 0.4) + GRACE
-            yield Change(ended, goal.status, known, f"its goal {goal.status} at {ended:.3g} s")
+            how = goal.status if goal.status == "succeeded" else f"was {goal.status}"
+            yield Change(ended, goal.status, known, f"its goal {how} at {ended:.3g} s")
