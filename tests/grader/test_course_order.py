@@ -39,7 +39,8 @@ def needed_by_page(number):
     """The lessons that a page of the bridge needs, and those that the pages need that it needs."""
     needs = PAGES[number].needs
     pages = re.findall(r"pages? (\d+)", needs)
-    pages += [other[1:] for other in PAGES if "the other pages" in needs and other != number]
+    for first, last in re.findall(r"pages (\d+) to (\d+)", needs):
+        pages += range(int(first), int(last) + 1)
     return needed_lessons(needs).union(*(needed_by_page(f"B{page}") for page in pages))
 
 
