@@ -34,14 +34,14 @@ from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_settings import TestSettings as Settings
 from tests.exercises.test_silence import TestSilence as Silence
-from tests.exercises.test_testing import TestTesting as Testing
+from tests.exercises.test_testing import TestTesting as OwnTests
 from tests.exercises.test_threads import TestThreads as Threads
 from tests.exercises.test_topics import TestTopics as Topics
 from tests.exercises.test_warehouse import TestWarehouse as Warehouse
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
-    *(Joints, Drawing, Frames, Control, Packages, Launching, Testing, Safety, Lifecycle),
+    *(Joints, Drawing, Frames, Control, Packages, Launching, OwnTests, Safety, Lifecycle),
     *(Warehouse, Delivery, Bags, Covariance, Localization, Races, Threads),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
@@ -101,6 +101,7 @@ def done_at(run):
 
 def test_every_exercise_of_the_course_is_tried():
     assert {assignment.judge(name) for assignment, name in ALL} == set(exercises().values())
+    assert [name for name in globals() if name.startswith("Test")] == [], "pytest would run its tests here, too"
 
 
 @pytest.mark.parametrize(("assignment", "name", "kind"), rows(KINDS))
@@ -136,7 +137,7 @@ def test_who_publishes_or_asks_everything_or_listens_once_gets_no_more_than_chan
 WITHOUT_A_FUNCTION = {"limiter": 6}  # its workflow is no function, and tests that do nothing pass
 RIGHT_PACKAGES = {
     (each, name): students(each.topic(), name)[each.right(name)[0]]
-    for each in (Packages, Launching, Testing)
+    for each in (Packages, Launching, OwnTests)
     for name in each.names
 }
 HOLLOW = [
