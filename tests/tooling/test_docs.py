@@ -9,7 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MAPS = ["README.md", "sim/README.md", "grader/README.md"]
-PAGES = [*MAPS, "CONTRIBUTING.md", ".ci/RELEASING.md", "tests/bench/README.md"]
+PAGES = [*MAPS, "CONTRIBUTING.md", *(f".ci/{name}.md" for name in ("REFERENCE", "REVIEWING", "RELEASING")), "tests/bench/README.md"]
 MOST = 120  # lines of the front page
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
 # Ignored by git: commands make them.
