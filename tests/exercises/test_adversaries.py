@@ -101,7 +101,7 @@ def done_at(run):
 
 def test_every_exercise_of_the_course_is_tried():
     assert {assignment.judge(name) for assignment, name in ALL} == set(exercises().values())
-    assert [name for name in globals() if name.startswith("Test")] == [], "pytest would run its tests here, too"
+    assert [name for name in globals() if name.startswith("Test")] == [], "its tests would run here, too"
 
 
 @pytest.mark.parametrize(("assignment", "name", "kind"), rows(KINDS))

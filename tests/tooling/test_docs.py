@@ -1,4 +1,4 @@
-"""Compares the READMEs and CONTRIBUTING with the files that they name."""
+"""Compares the READMEs and the pages for contributors with the files that they name."""
 import importlib
 import re
 import subprocess
@@ -9,7 +9,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MAPS = ["README.md", "sim/README.md", "grader/README.md"]
-PAGES = [*MAPS, "CONTRIBUTING.md", *(f".ci/{name}.md" for name in ("REFERENCE", "REVIEWING", "RELEASING")), "tests/bench/README.md"]
+PAGES = [*MAPS, "CONTRIBUTING.md", ".ci/REFERENCE.md", ".ci/REVIEWING.md", ".ci/RELEASING.md"]
+PAGES += ["tests/bench/README.md"]
 MOST = 120  # lines of the front page
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
 # Ignored by git: commands make them.
