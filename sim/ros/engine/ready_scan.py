@@ -11,6 +11,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.subscription import Subscription
 
 from sim.evidence import SPUN
+from sim.ros.engine.awaits import waits_for_a_future
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
 from sim.ros.engine.ready_order import ReadyOrder
@@ -72,7 +73,7 @@ class ReadyScan:
         executor, waiter = self.executor, self._waiter
         self._poll()
         for task, entity, node in reversed(executor._tasks):
-            waits = state_of(task).seen_wakes == waiter.wakes
+            waits = state_of(task).seen_wakes == waiter.wakes or waits_for_a_future(task)
             if not (waits or task.executing() or task.done() or task.cancelled()):
                 yield Work("task", None, node, task, (), getattr(entity, "callback", None))
         executor._tasks = [t for t in executor._tasks if not (t[0].done() or t[0].cancelled())]

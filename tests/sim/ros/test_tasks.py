@@ -16,3 +16,9 @@ def test_the_newest_task_runs_first():
         *((0.0, f"{name} begins") for name in order),
         *((0.5, f"{name} goes on") for name in order),
     ]
+
+
+@pytest.mark.parametrize("program", [tasks.PlansInAThread, tasks.plans_with_four_threads])
+def test_callbacks_that_await_each_other_and_a_thread_let_time_go_on(program):
+    recording = run(program, seconds=3.5, quiet=True)
+    assert logged(recording) == [(at, "left, then right") for at in (1.4, 2.4, 3.4)]
