@@ -11,7 +11,7 @@ from std_msgs.msg import Float64
 
 LOAD, RADIUS = "/load", "/radius"
 PERIOD = 0.02  # s between two loads
-ORDERED = 0.1  # s
+ORDERED = 0.06  # s
 TOTAL, SWING, NOISE = 60.0, 9.0, 1.0  # kg
 RADII = 1.0, 4.0  # m
 
