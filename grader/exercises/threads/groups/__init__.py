@@ -36,8 +36,8 @@ WAITS = ("The loop waits while a plan is being made. Is the planner in another g
          "second thread, and does the planner hold no lock while it calls find_speed and find_turn?")
 OLD_LOAD = ("Each step uses the newest load: copy it when the step begins. And on_load must be able to run "
             "while your planner works.")  # fmt: skip
-TWO_LOADS = ("That plan is made of two loads: /load arrives while your planner works. Copy left and right once "
-             "in each step, and in such a way that no load can arrive in between.")  # fmt: skip
+TWO_LOADS = ("That plan is made of two loads: /load arrives while your planner works. Copy left and right "
+             "once in each step, and in such a way that no load can arrive in between.")  # fmt: skip
 
 
 class TankPlan(NamedTuple):

@@ -16,8 +16,6 @@ from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import Float64
 
-from tests.students.teams import Team
-
 
 def find_speed(radius, left, right):
     """Hard work: the speed (m/s) at which the robot doesn't tip over."""
@@ -339,7 +337,7 @@ subscribes_to_its_plan = spun(SubscribesToItsPlan)  # a design of its own
 worker_thread = spun_in_one_thread(WorkerThread)  # a design of its own
 pool = spun_in_one_thread(Pool)  # a design of its own
 awaits_the_steps = spun_in_one_thread(AwaitsTheSteps)  # a design of its own
-two_nodes = Team(spun(Planner), spun_in_one_thread(Driver))  # a design of its own
+two_nodes = spun(Planner, Driver)  # a design of its own
 
 
 # -- wrong ones ----------------------------------------------------------------------------------
