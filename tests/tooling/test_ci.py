@@ -14,7 +14,7 @@ import pytest
 import yaml
 from _pytest.mark.expression import Expression
 
-from tests.conftest import is_extra
+from tests.conftest import differences_of, is_extra
 
 ROOT = Path(__file__).parents[2]
 FILES = (".github/workflows/check.yml", ".gitlab-ci.yml", ".devcontainer/devcontainer.json")
@@ -183,3 +183,12 @@ def test_without_a_commit_it_says_how_it_is_called(tmp_path):
         1,
         "Which score pages a change alters, as Markdown: .ci/pages BASE   (run by the environment's Python)",
     )
+
+
+def test_each_difference_of_a_distribution_is_that_of_a_test():
+    rows = differences_of("kilted")
+    assert rows and differences_of("jazzy") == {}
+    for test in rows:
+        file, *_, function = test.partition("[")[0].split("::")
+        inherited = "tests/exercises/assignment.py" if file.startswith("tests/exercises/test_") else file
+        assert f"def {function}(" in (ROOT / inherited).read_text("utf-8"), test
