@@ -12,7 +12,7 @@ from grader.checks.check import Check, Hints, new_check
 from grader.checks.verdicts import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
-from grader.orders import OrderDifference, judge_in_orders, order_of_run
+from grader.orders import USUAL, OrderDifference, judge_in_orders, order_of_run
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation
 from grader.scenario import Companions, Scenario
 from grader.score import Score
@@ -132,10 +132,10 @@ class Exercise(Varied):
     def varies(self) -> bool:
         """Return whether the right answer depends on what a run shows, and not on the task's text alone.
 
-        Something varies if the course sends messages, draws the world from a seed, or builds a package.
+        Something varies if the course sends messages, draws worlds or the like, or builds a package.
         """
         runs = [scenario for scenario, _ in self.runs()]
-        drawn = any(callable(scenario.world) or scenario.companions for scenario in runs)
+        drawn = any(callable(one.world) or one.companions or one.prepare_for for one in runs)
         return drawn or bool(self.package) or len({seed for _, seed in self.runs()}) > 1
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
@@ -207,7 +207,7 @@ class Exercise(Varied):
             in_order = functools.partial(self._judged, scenario, run)
             try:
                 if order is None:
-                    chosen = order_of_run(index, seed, public=not secret)
+                    chosen = order_of_run(index, seed, public=not secret) if scenario.any_order else USUAL
                     (recording, verdicts), difference = judge_in_orders(chosen, in_order, judged, not secret)
                     differences += filter(None, [difference])
                 else:

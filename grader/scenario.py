@@ -29,6 +29,7 @@ class Scenario:
     companions: programs of the course, as for sim.run; or a function of the seed that returns them.
     until: a function of the growing recording that ends the run early, as in sim.run.
     prepare: a module's function that makes of each of the student's programs the one that runs in its place.
+    prepare_for: in place of it, a function of the seed that returns it.
     name: by which checks that hold in some scenarios only name this one.
     network: what lies between the robot and the student's nodes, as in sim.run.
     fair: the seeds of which students get one each when they are marked, where luck decides in others.
@@ -47,6 +48,7 @@ class Scenario:
     fair: Sequence[int] = ()
     waits: bool = True
     any_order: bool = True
+    prepare_for: Callable[[int], Prepare] | None = None
 
     def run(
         self, source: ProgramSource, seed: int, package: Package | None = None, order: str = ""
@@ -62,8 +64,9 @@ class Scenario:
     def _run(self, source: ProgramSource, seed: int, order: str) -> Recording:
         from sim import run
 
+        prepare = self.prepare or (self.prepare_for and self.prepare_for(seed))
         recording = run(
-            *source.programs(self.prepare),
+            *source.programs(prepare),
             companions=self.companions(seed) if callable(self.companions) else self.companions,
             world=self._world(seed),
             seconds=self.seconds,

@@ -34,6 +34,7 @@ from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_settings import TestSettings as Settings
 from tests.exercises.test_silence import TestSilence as Silence
+from tests.exercises.test_systems import TestSystems as Systems
 from tests.exercises.test_testing import TestTesting as OwnTests
 from tests.exercises.test_threads import TestThreads as Threads
 from tests.exercises.test_topics import TestTopics as Topics
@@ -42,7 +43,7 @@ from tests.exercises.test_warehouse import TestWarehouse as Warehouse
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Settings, Actions, Sensing, Guarding, Navigator, Navigating, Silence),
     *(Joints, Drawing, Frames, Control, Packages, Launching, OwnTests, Safety, Lifecycle),
-    *(Warehouse, Delivery, Bags, Covariance, Localization, Races, Threads),
+    *(Warehouse, Delivery, Bags, Covariance, Localization, Races, Threads, Systems),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 EVERY_DAY = {("lidar", LISTENS_ONCE), ("compass", LISTENS_ONCE), ("ticks", "asks everything"),

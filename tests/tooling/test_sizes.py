@@ -18,7 +18,7 @@ BUDGETS = {
     "grader/checks": 3_250,
     "grader/companions": 2_500,
     "grader/diagnosis": 4_500,
-    "grader/exercises": 20_000,
+    "grader/exercises": 20_250,
     "grader/marking": 17_500,
     "ros_packages": 11_500,
     "tests": 119_000,

@@ -22,6 +22,7 @@ from grader.marking.student_process.judge_only import CLOSED, EXERCISES
 SERVED = (
     "grader.companions.main_observer",
     "grader.companions.parameter_start",
+    "grader.companions.race_test_runner",
     "grader.companions.test_runner",
 )
 

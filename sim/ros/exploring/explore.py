@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from typing import Any, Protocol
 
 from sim.evidence import Recording
@@ -19,6 +21,7 @@ MOST_SHRINKING = 300  # runs
 FURTHER = 40  # orders that are tried after the first that fails, as long as more than one departure is left
 AGAIN = 10  # runs in the order that was found
 SILENT = {"quiet": True, "expect_error": True}
+_only_first: ContextVar[bool] = ContextVar("only_first", default=False)
 
 Holds = Callable[[Recording], bool]
 Attempt = Callable[[str | int], tuple[Recording, bool]]
@@ -39,6 +42,16 @@ class Judge(Protocol):
 
     def in_order(self, *nodes: Any, order: str | int) -> tuple[Recording, bool]:
         """Run the nodes in this order: the run to look at, and whether they earn full points."""
+
+
+@contextlib.contextmanager
+def stopping_at_the_first() -> Iterator[None]:
+    """In this block, `explore` ends with the first order that fails, and doesn't explain it."""
+    token = _only_first.set(True)
+    try:
+        yield
+    finally:
+        _only_first.reset(token)
 
 
 def explore(
@@ -114,6 +127,8 @@ class _Search:
                 break
         else:
             return
+        if _only_first.get():
+            return
         for number in range(found.tried + 1, min(found.tried + FURTHER, self._orders) + 1):
             if len(found.departures) == 1:
                 break
@@ -145,7 +160,7 @@ class _Search:
         ids = [departure.id for departure in recording.departures]
         found = self.found
         try:
-            if ids and fails(ids):
+            if ids and not _only_first.get() and fails(ids):
                 for _ in shrink(ids, fails):
                     pass
         finally:

@@ -152,7 +152,8 @@ def test_notebooks_import_their_package_and_nothing_else_that_holds_answers(star
 
 def test_a_companion_that_prepares_a_program_is_in_a_students_process():
     runs = [scenario for exercise in exercises().values() for scenario, _ in exercise.runs()]
-    modules = {getattr(one.prepare, "func", one.prepare).__module__ for one in runs if one.prepare}
+    prepares = [one.prepare_for(1) if one.prepare_for else one.prepare for one in runs]
+    modules = {getattr(one, "func", one).__module__ for one in prepares if one}
     assert {name for name in modules if name.startswith("grader.companions.")} - {*SERVED} == set()
 
 

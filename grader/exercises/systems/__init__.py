@@ -1,0 +1,5 @@
+"""The exercises of 15c_systems: a test that finds races."""
+
+from grader.exercises import notebook_names
+
+globals().update(notebook_names(__name__))
