@@ -55,7 +55,7 @@ def html(
     )
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
-        f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
+        '<caption style="text-align: left; color: inherit">'
         f"<b>{_escape(title)}: {format_points(points)} of {format_points(most)} points</b>"
         f"{FULL if points >= most > 0 else ''}"
         f'{note and f"<br>{_escape(note)}"}</caption>'

@@ -36,7 +36,7 @@ class OwnCode:
                 self._add(space)
         found = gc.get_referrers(*self._namespaces.values()) if self._namespaces else []
         self.functions = [
-            each for each in found if type(each) is FunctionType and id(each.__globals__) in self._namespaces
+            each for each in found if _is_function(each) and id(each.__globals__) in self._namespaces
         ]
 
     def _add(self, space: dict[str, Any]) -> None:
@@ -64,8 +64,13 @@ def new_functions() -> list[FunctionType]:
     return [
         found
         for found in gc.get_objects()
-        if type(found) is FunctionType and not is_library(found.__code__.co_filename)
+        if _is_function(found) and not is_library(found.__code__.co_filename)
     ]
+
+
+def _is_function(found: Any) -> bool:
+    """Whether it is a function that code can call. Python makes one of a module or a cell while that runs."""
+    return type(found) is FunctionType and found.__code__.co_name != "<module>"
 
 
 def _unwrapped(target: Any) -> Any:

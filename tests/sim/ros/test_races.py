@@ -232,6 +232,16 @@ def test_compiled_code_is_named(load, tmp_path):
     assert found.explanation.endswith(" No thread was preempted in `compiled_part` (it is compiled).")
 
 
+CELL = 'found = explore(Counter, holds=holds, level="host", orders=2, seconds=1)'
+
+
+def test_the_cell_that_explores_is_no_code_of_the_nodes(load):
+    names = vars(load("counter_in_a_notebook", f"from sim import explore\n{HELPER}\n{WORKER}\n{MAIN}"))
+    names |= {"helper_of_worker": load("helper_of_worker", HELPER), "holds": lambda recording: True}
+    exec(compile(CELL, names["__file__"], "exec"), names)  # as a notebook's cell, with the nodes' names
+    assert names["found"].unseen == {}
+
+
 def test_nothing_is_named_without_threads(load):
     module = load("without_threads", MAIN.replace("range(2)", "range(0)"))
     exec(HELPER, vars(module))
