@@ -58,6 +58,7 @@ RIGHT_ANYWAY = {
     ("modes", LISTENS_ONCE): 7.5,  # modes and arming are services
     ("ticks", LISTENS_ONCE): 8,  # a timer asks, and answers go on
     ("trajectory", LISTENS_ONCE): 16,  # paths come seldom; where the arm is counts for one check
+    ("audit", LISTENS_ONCE): 8,  # delays are data; only repaired systems receive a stream of messages
     ("customer", "asks everything"): 12,  # the goal is in the task's text, and with it its result
     ("courier", "asks everything"): 6,  # the same
     ("careful", "asks everything"): 6,  # what is wanted is passed on, and more

@@ -103,6 +103,8 @@ THERE = {
     "exercises.localization.localize.scan_matcher": (
         "composed relative", "given: lesson 14c has them, too",
     ),
+    "exercises.systems.audit.delays": ("read_delays _ticks", "reads what a student wrote"),
+    "exercises.systems.audit.deliveries": ("question_of read_answers", "reads what a student wrote"),
     "exercises.localization.weigh.guesses": ("is_close", "needs the true pose"),
     "diagnosis.activity": ("_times", "words of a hint"),
     "diagnosis.driving": ("VelocityCommand _command_text", "words of a hint"),
