@@ -25,7 +25,7 @@ class Delivery(NamedTuple):
 class PlayScript(NamedTuple):
     """The messages that a system receives in a play.
 
-    response: the text in the responses of its service. other: a lift whose doors open for somebody else.
+    response: the text in the responses of its service. other: a lift whose doors open for other robots.
     """
 
     deliveries: list[Delivery]
