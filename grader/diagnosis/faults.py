@@ -47,6 +47,11 @@ _RATE = (
     "so it can't be called in a callback of that thread. Let a timer do the next step, or sleep in another "
     "thread."
 )
+_LOCK = (
+    "That lock is never released: this thread holds it already, or another one that itself waits for a lock "
+    "of this thread. Take several locks in the same order everywhere, and hold none while you wait for "
+    "something else."
+)
 _MAIN_HANGS = (
     "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
@@ -115,6 +120,8 @@ def _from_end(ended: Ended) -> Fault:
         hint = _WAITS_OUTSIDE
     elif "and never returned. The response of " in ended.detail:  # with a line, it waits without `await`
         hint = _AWAITS
+    elif ended.detail.endswith("It waits for a lock."):
+        hint = _LOCK
     elif "the timer of the Rate" in ended.detail:
         hint = _RATE
     elif "It awaits a future that only " in ended.detail:

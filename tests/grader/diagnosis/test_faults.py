@@ -1,9 +1,11 @@
 """Hangs, livelocks, deadlocks and work that is not started yet, as real runs end with them."""
 
 import re
+import threading
 from functools import partial
 
 import pytest
+from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from grader.diagnosis import find_fault
@@ -78,6 +80,29 @@ def test_a_call_to_oneself_is_blocked():
     assert fault.hint == (
         "Everything waits for something that can't happen. Inside a callback, don't wait for another callback of the "
         "same node (spin_until_future_complete, client.call): use call_async and add_done_callback, or await."
+    )
+
+
+class TakesALockTwice(Node):
+    """A lock that its thread already holds."""
+
+    def __init__(self):
+        super().__init__("twice")
+        self.lock = threading.Lock()
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        with self.lock:
+            self.lock.acquire()
+
+
+def test_a_callback_that_waits_for_a_lock_is_blocked():
+    fault = fault_of(TakesALockTwice)
+    assert fault.saw.endswith("never returned, at line 96: self.lock.acquire(). It waits for a lock.")
+    assert fault.hint == (
+        "That lock is never released: this thread holds it already, or another one that itself waits for a "
+        "lock of this thread. Take several locks in the same order everywhere, and hold none while you wait for "
+        "something else."
     )
 
 
