@@ -1,4 +1,4 @@
-"""Depots whose jobs must not wait for each other for ever: right ones, and wrong ones named after their defect."""
+"""Depots whose jobs must not wait for each other forever: right ones, and wrong ones named after their defect."""
 
 import contextlib
 import threading
