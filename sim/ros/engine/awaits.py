@@ -56,7 +56,7 @@ def useless_await(executors: Iterable[Any], now: Nanoseconds, patience: Nanoseco
 
 
 def waits_for_a_future(task: Any) -> bool:
-    """Whether a coroutine awaits a future that isn't complete: to poll it would change nothing."""
+    """Return whether a coroutine awaits a future that isn't complete: to poll it would change nothing."""
     last = _chain(task._handler)[-1]
     future = last.gi_frame.f_locals.get("self") if _is_await(last) else None
     return future is not None and not (future.done() or future.cancelled())
