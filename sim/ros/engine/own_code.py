@@ -69,7 +69,7 @@ def new_functions() -> list[FunctionType]:
 
 
 def _is_function(found: Any) -> bool:
-    """Return whether code can call it as a function. Python makes one of a module or a cell while that runs."""
+    """Return whether code can call it. Python makes one of a module or a cell while that runs."""
     return type(found) is FunctionType and found.__code__.co_name != "<module>"
 
 
