@@ -48,9 +48,11 @@ def test_any_exception_is_a_failure_and_what_is_returned_is_noted():
 
 def test_an_assertion_without_a_text_is_named_by_its_line():
     def fails(program):
-        assert 1 + 1 == 3
+        assert program is None
 
-    assert verdicts(fails, ONE) == ["1 failed 0 0 assert 1 + 1 == 3"]
+    (verdict,) = verdicts(fails, ONE)
+    assert verdict.startswith("1 failed 0 0 assert ")
+    assert verdict.endswith(" is None")  # as pytest shows it, which has the value in it, or as it is written
 
 
 def test_no_further_program_is_tried_after_a_wrong_verdict_on_a_known_one():

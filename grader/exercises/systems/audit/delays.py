@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from grader.exercises.systems.audit.six_systems import SYSTEMS
+from grader.geometry.near import is_near
 
 TICK, STEP, LONGEST = 0.01, 5, 30  # s; ticks between two delays that differ, and of the longest one
 ENTRIES = 20  # of a list that are read
@@ -37,7 +38,7 @@ def _ticks(seconds: Any) -> int:
     """Return a delay in ticks. Raises ValueError for one that can't be."""
     number = isinstance(seconds, int | float) and not isinstance(seconds, bool)
     ticks = round(seconds / TICK) if number and 0.0 <= seconds <= 1.0 else -1
-    if not 0 <= ticks <= LONGEST or ticks % STEP or abs(seconds - ticks * TICK) > 1e-6:
+    if not 0 <= ticks <= LONGEST or ticks % STEP or not is_near(seconds, ticks * TICK, 1e-6):
         steps = f"0, {STEP * TICK:g}, ... {LONGEST * TICK:g} s"
         raise ValueError(f"a delay of {str(seconds)[:20]} s, which isn't one of {steps}")
     return ticks
