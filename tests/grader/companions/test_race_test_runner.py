@@ -1,10 +1,12 @@
 """Tests of what tries a student's test on programs."""
 
+import threading
 import time
 from time import sleep
 
 from grader.companions.race_test_runner import MOST_RUNS, VERDICTS, try_test
 from sim import explore, run
+from tests.patience import PATIENCE
 
 PROGRAM = """\
 import rclpy
@@ -74,6 +76,27 @@ def test_sleeping_takes_no_time_and_is_counted():
 
     assert verdicts(sleeps, ONE) == ["1 passed 0 2"]
     assert time.sleep is sleep
+
+
+def test_the_sleep_of_another_thread_is_its_own():
+    looked, over = threading.Event(), threading.Event()
+
+    def poll():  # as Jupyter's kernel looks whether its server still runs
+        while not over.is_set():
+            time.sleep(0.001)
+            looked.set()
+
+    def waits(program):
+        looked.clear()
+        assert looked.wait(PATIENCE)
+
+    poller = threading.Thread(target=poll)
+    poller.start()
+    try:
+        assert verdicts(waits, ONE) == ["1 passed 0 0"]
+    finally:
+        over.set()
+        poller.join(PATIENCE)
 
 
 def test_a_program_runs_only_so_often():
