@@ -18,7 +18,7 @@ from sim.ros.fibers.scheduler import active
 VERDICTS = "/verdicts"
 PASSED, FAILED = "passed", "failed"
 MOST_RUNS = 60  # of one program
-MOST_SECONDS = 20.0  # of computing, after which no further program is tried
+MOST_SECONDS = 60.0  # of computing, after which no further program is tried: ten times what a test takes
 MOST_TEXT = 160  # characters of why a test failed
 
 Program = Callable[[], None]

@@ -20,6 +20,7 @@ from sim.ros.remote.wire import Wire, WireClosed, WireError, WireTimeout
 
 FAULTS = ("hang", "livelock")
 MAX_DETAIL_LENGTH = 2_000  # characters
+PREPARING = 4  # times the patience: to prepare may be to run a student's test, which has runs of its own
 
 
 class Remote:
@@ -27,7 +28,8 @@ class Remote:
 
     It can be run several times, also after a RemoteLost whose process is still alive. `end` releases it.
 
-    patience: wall seconds until a single answer must arrive. total: wall seconds for all answers of one run.
+    patience: wall seconds until a single answer must arrive; four times as many for the first one of nodes
+    that are prepared. total: wall seconds for all answers of one run.
     secret: key from which the seed of the other process's `random` is derived, together with the run's seed.
     deadline: returns the time by which a run must be over, by the clock `monotonic`; it may change meanwhile.
     """
@@ -112,14 +114,15 @@ class Remote:
         """The latest end of this run, by the clock `monotonic`."""
         return min(monotonic() + self.total - self._waited, self._deadline())
 
-    def _exchange(self, **message: Any) -> dict[str, Any]:
-        """Send a message and receive the answer. Raises RemoteLost."""
+    def _exchange(self, patience: float = 0.0, **message: Any) -> dict[str, Any]:
+        """Send a message and receive the answer. patience: 0 for the usual one. Raises RemoteLost."""
         begin = monotonic()
+        patience = patience or self.patience
         try:
             self.wire.send(**message)
-            answer = self.wire.receive(self.patience)
+            answer = self.wire.receive(patience)
         except WireError as error:
-            self._lose(error)
+            self._lose(error, patience)
         self._waited += monotonic() - begin
         if self._waited > self.total:
             raise RemoteLost(f"The process with the nodes took more than {self.total:g} s for one run.")
@@ -129,11 +132,11 @@ class Remote:
             raise RemoteLost(f"The nodes could not be run: {why}.", lives=True)
         return answer
 
-    def _lose(self, error: Exception) -> NoReturn:
+    def _lose(self, error: Exception, patience: float = 0.0) -> NoReturn:
         if isinstance(error, WireClosed):
             reason = "The process with the nodes has ended."
         elif isinstance(error, WireTimeout):
-            reason = f"The process with the nodes gave no answer for {self.patience:g} s."
+            reason = f"The process with the nodes gave no answer for {patience or self.patience:g} s."
         else:
             reason = f"The process with the nodes sent an invalid answer: {error}."
         raise RemoteLost(reason) from None
@@ -149,6 +152,7 @@ class _RunExchange:
         self._end = round(run.recording.seconds * SECOND)
         self.next: Nanoseconds | None = None
         self.alive, self._busy = True, False
+        self._patience = remote.patience * (PREPARING if preparation else 1)  # for the first answer
         seed = remote.derived_seed(run.recording.seed)
         try:
             about = {"seconds": run.recording.seconds, "seed": seed, "order": run.recording.order}
@@ -167,7 +171,9 @@ class _RunExchange:
         run, link = self._run, self.link
         try:
             link.collect()
-            answer = self._remote._exchange(do="go", now=run.now, events=link.take_outgoing())
+            events = link.take_outgoing()
+            answer = self._remote._exchange(self._patience, do="go", now=run.now, events=events)
+            self._patience = self._remote.patience
             if "events" not in answer:
                 when = f"The process with the nodes ended unexpectedly at {run.recorder.now:.3g} s"
                 why = "something in it ended the run there, or wrote to its connections"

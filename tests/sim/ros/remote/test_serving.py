@@ -111,6 +111,28 @@ def test_one_turn_per_time_step_is_enough_without_events(follower, monkeypatch):
     assert len(moments) == len(set(moments)) == 9
 
 
+def as_it_is(node):
+    """A preparation that changes nothing."""
+    return node
+
+
+def test_what_is_prepared_may_take_four_times_as_long(follower, monkeypatch):
+    patiences, receive = [], follower.wire.receive
+
+    def note(timeout=None):
+        patiences.append(timeout)
+        return receive(timeout)
+
+    monkeypatch.setattr(follower.wire, "receive", note)
+    node = "tests.students.engine.threads", "two_groups_in_parallel"
+    with follower.serving(*node, patience=PATIENCE) as remote:
+        for preparation in ([], ["tests.sim.ros.remote.test_serving:as_it_is"]):
+            del patiences[:]
+            run(remote.program(preparation), seconds=1, quiet=True)
+            assert patiences[0] == (4 if preparation else 1) * PATIENCE
+            assert set(patiences[1:]) == {PATIENCE}
+
+
 def test_a_process_that_does_not_receive_is_given_up(wires):
     remote = Remote(Wire(wires[0]._socket, patience=0.05))
     with pytest.raises(RemoteLost) as lost:
