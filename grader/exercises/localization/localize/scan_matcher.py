@@ -27,7 +27,7 @@ from grader.worlds.slippery import slippery
 from sim.evidence import since_start
 from sim.world import World
 
-CLICKED = 0.5  # s: when a person clicks where the robot is
+CLICKED = 1.0  # s: when a person clicks where the robot is; in each order /tf has come by then
 MATCHED = 1.0  # s: when the scan matcher begins
 EVERY = 8  # scans
 GUESSES, SIGMA, RANDOM = 300, 0.1, 0.2

@@ -211,7 +211,7 @@ class SendsAgain(Localization):
     def __init__(self):
         super().__init__()
         self.last = None
-        self.create_timer(0.05, self.repeat)
+        self.create_timer(0.02, self.repeat)
 
     def send(self, place, stamp):
         self.last = place, stamp
