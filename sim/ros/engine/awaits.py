@@ -57,8 +57,7 @@ def useless_await(executors: Iterable[Any], now: Nanoseconds, patience: Nanoseco
 
 def waits_for_a_future(task: Any) -> bool:
     """Return whether a coroutine awaits a future that isn't complete: to poll it would change nothing."""
-    last = _chain(task._handler)[-1]
-    future = last.gi_frame.f_locals.get("self") if _is_await(last) else None
+    future = _awaited(_chain(task._handler))
     return future is not None and not (future.done() or future.cancelled())
 
 
@@ -67,7 +66,7 @@ def _awaiting(executor: Any) -> list[Awaiting]:
     found = []
     for task, entity, node in executor._tasks:
         chain = _chain(task._handler)
-        future = chain[-1].gi_frame.f_locals.get("self") if _is_await(chain[-1]) else None
+        future = _awaited(chain)
         server = chain[0].cr_frame.f_locals.get("self") if len(chain) > 1 else None
         node = server._node if isinstance(server, ActionServer) else node
         if node is not None and type(future) is Future:
@@ -84,6 +83,11 @@ def _chain(coroutine: Any) -> list[Any]:
     while inspect.iscoroutine(chain[-1]) and chain[-1].cr_await is not None:
         chain.append(chain[-1].cr_await)
     return chain
+
+
+def _awaited(chain: list[Any]) -> Any:
+    """Return the future that the last of a chain awaits; None if that is something else."""
+    return chain[-1].gi_frame.f_locals.get("self") if _is_await(chain[-1]) else None
 
 
 def _is_await(awaited: Any) -> bool:

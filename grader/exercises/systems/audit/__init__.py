@@ -71,10 +71,7 @@ def answers_all(run: Recording) -> Answers:
 @audit.check(5, after=answers_all)
 def breaks_the_given(run: Recording, found: Answers) -> Answers:
     """The delays break the promise of each of the four systems that have a race, as they were given."""
-    missed = [miss for name in RACY for miss in _not_broken(run, name, found[name])]
-    if missed:
-        raise Missed(*missed[0], credit=1 - len(missed) / len(RACY), measured=found)
-    return found
+    return _all_but(found, [miss for name in RACY for miss in _not_broken(run, name, found[name])])
 
 
 @audit.check(2, after=breaks_the_given)
@@ -90,10 +87,7 @@ def spares_the_right(run: Recording, found: Answers) -> None:
 @audit.check(5, after=breaks_the_given)
 def repairs_hold(run: Recording, found: Answers) -> Answers:
     """Each repaired system keeps its promise with your delays and in four other orders."""
-    missed = [miss for name in RACY for miss in _not_repaired(run, name, found[name])]
-    if missed:
-        raise Missed(*missed[0], credit=1 - len(missed) / len(RACY), measured=found)
-    return found
+    return _all_but(found, [miss for name in RACY for miss in _not_repaired(run, name, found[name])])
 
 
 @audit.check(1, after=repairs_hold)
@@ -108,6 +102,13 @@ def repairs_are_small(run: Recording, found: Answers) -> None:
         if lines > MOST_LINES:
             hint = "Leave everything that has nothing to do with the race as it is."
             raise Missed(f"at most {MOST_LINES} changed lines in {name}", str(lines), hint)
+
+
+def _all_but(found: Answers, missed: list[tuple[str, str, str]]) -> Answers:
+    """Return the answers if none of the racy systems misses anything; else raise the first miss."""
+    if missed:
+        raise Missed(*missed[0], credit=1 - len(missed) / len(RACY), measured=found)
+    return found
 
 
 def _methods(answer: Mapping[str, Any]) -> dict[str, str]:
