@@ -50,7 +50,7 @@ def solution(
                     given = eval(f"({', '.join([*map(ast.unparse, graded.args), ''])})", space)
                     return tuple(str(Path(one).resolve()) if isinstance(one, str) else one for one in given)
                 # What only shows something is left out, but not what writes a package that is given.
-                if not isinstance(statement, ast.Expr) or "packages.write_" in ast.unparse(statement):
+                if not _shows(statement) or "packages.write_" in ast.unparse(statement):
                     with contextlib.suppress(NameError):  # of a recording
                         exec(ast.unparse(statement), space)
     raise ValueError(f"{path} grades no {name}")
@@ -97,6 +97,15 @@ def _graded(statement: ast.stmt, name: str) -> ast.Call | None:
     return call if words[-2:] == [name, "grade"] else None
 
 
+def _shows(statement: ast.stmt) -> bool:
+    """Whether it binds no name, apart from those of a loop."""
+    if isinstance(statement, ast.For):
+        return all(map(_shows, statement.body))
+    return isinstance(statement, ast.Expr)
+
+
 def _runs(statement: ast.stmt) -> bool:
+    if isinstance(statement, ast.FunctionDef):  # such as a test, which runs programs only when it is called
+        return False
     called = (part.func for part in ast.walk(statement) if isinstance(part, ast.Call))
     return any(ast.unparse(function) in NOT_DONE for function in called)

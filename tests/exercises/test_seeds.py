@@ -3,6 +3,7 @@
 import pytest
 
 from grader.programs import LocalPrograms
+from tests.exercises.reference import solution
 from tests.exercises.seeds import SOLUTION, exercise_of, programs_named
 
 FELL_SHORT = [
@@ -17,3 +18,8 @@ def test_a_right_node_earns_everything_with_a_seed_that_was_unkind(topic, name, 
     exercise = exercise_of(topic, name)
     programs = programs_named(topic, name, node)
     assert exercise.judge(LocalPrograms(programs), secret) == exercise.points
+
+
+def test_a_solution_may_be_a_function_that_runs_programs():
+    (answer,) = solution("systems", "race_test")
+    assert answer.__name__ == "test_depot"
