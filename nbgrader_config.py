@@ -44,8 +44,9 @@ if Path("class", "course.toml").exists():
     c.OwnChoice.file = str(Path("class", "course.toml").absolute())
     c.GenerateAssignment.preprocessors = [OwnChoice, *GenerateAssignment.preprocessors.default()]
 
-# On a busy machine a kernel needs long to start, in seconds.
+# On a busy machine a kernel needs long to start, and a cell's output comes long after the cell, in seconds.
 c.Execute.startup_timeout = 600
+c.Execute.iopub_timeout = 60
 
 # A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
 c.Execute.timeout = 60

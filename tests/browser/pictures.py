@@ -3,8 +3,9 @@
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
-from playwright.sync_api import Browser, Locator, Page, sync_playwright
+from playwright.sync_api import Browser, Locator, Page, expect, sync_playwright
 
 from tests.browser.lab import ARTIFACTS
 from tests.patience import PATIENCE
@@ -45,13 +46,20 @@ def chromium() -> Iterator[Browser]:
         browser = playwright.chromium.launch(
             executable_path=CHROMIUM, args=["--no-sandbox"], timeout=PATIENCE * 1000
         )
+        expect.set_options(timeout=PATIENCE * 1000)
         yield browser
         browser.close()
 
 
-def watch(page: Page) -> list[str]:
-    """Note the address of whatever the page asks for from now on; and be patient with it."""
+def patient_page(browser: Browser, **settings: Any) -> Page:
+    """Open a tab whose actions wait as long as tests do, not for half a minute. settings: of `new_page`."""
+    page = browser.new_page(**settings)
     page.set_default_timeout(PATIENCE * 1000)
+    return page
+
+
+def watch(page: Page) -> list[str]:
+    """Note the address of whatever the page asks for from now on."""
     requests: list[str] = []
     page.on("request", lambda request: requests.append(request.url))
     return requests

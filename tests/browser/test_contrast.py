@@ -10,7 +10,6 @@ from sim.notebook import failure_html
 from sim.view import plot_logs, plot_path, plot_signal
 from sim.view.prediction import SCRIPT, Prediction
 from tests.browser.contrast import poor_texts
-from tests.browser.pictures import chromium
 
 pytestmark = pytest.mark.browser
 # Text, ground and links of JupyterLab's pages.
@@ -82,23 +81,21 @@ def parts(tmp_path_factory):
 
 
 @pytest.mark.parametrize("theme", THEMES)
-def test_texts_of_outputs_can_be_read(parts, theme):
+def test_texts_of_outputs_can_be_read(page, parts, theme):
     ink, ground, link = THEMES[theme]
     body = f"body {{ font: 14px sans-serif; color: {ink}; background: {ground} }}"
     style = f"<style>{body} :where(a) {{ color: {link} }}</style>"
-    with chromium() as browser:
-        page = browser.new_page(viewport={"width": 1000, "height": 900}, color_scheme=theme)
-        page.set_content(f"<!doctype html>{style}{''.join(parts)}")
-        page.locator(".ros2-prediction button").first.wait_for()
-        page.locator(".ros2-time-plot").first.wait_for()
-        page.locator(".ros2-outcome button").wait_for()
-        assert poor_texts(page) == []
+    page.set_viewport_size({"width": 1000, "height": 900})
+    page.emulate_media(color_scheme=theme)
+    page.set_content(f"<!doctype html>{style}{''.join(parts)}")
+    page.locator(".ros2-prediction button").first.wait_for()
+    page.locator(".ros2-time-plot").first.wait_for()
+    page.locator(".ros2-outcome button").wait_for()
+    assert poor_texts(page) == []
 
 
-def test_a_pale_text_is_found():
-    with chromium() as browser:
-        page = browser.new_page()
-        for style in ("color: #888", "opacity: .5", "color: #000; background: rgba(0, 0, 0, .6)"):
-            page.set_content(f'<p class="pale" style="{style}">Words</p><p style="color: #666">More</p>')
-            (line,) = poor_texts(page)
-            assert line.endswith("| pale | Words")
+def test_a_pale_text_is_found(page):
+    for style in ("color: #888", "opacity: .5", "color: #000; background: rgba(0, 0, 0, .6)"):
+        page.set_content(f'<p class="pale" style="{style}">Words</p><p style="color: #666">More</p>')
+        (line,) = poor_texts(page)
+        assert line.endswith("| pale | Words")

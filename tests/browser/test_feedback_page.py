@@ -11,7 +11,7 @@ from grader.marking.release.demo import mark_samples
 from sim.view.interactive import plot_script
 from sim.view.replay import PLAYER_SCRIPT
 from tests.browser.lab import ROOT, server
-from tests.browser.pictures import Picture, point_at, watch
+from tests.browser.pictures import Picture, patient_page, point_at, watch
 from tests.marking.hostile import corpus
 from tests.marking.tiny import answer, course, grade
 
@@ -106,7 +106,7 @@ def check_time_link(page) -> None:
 def test_a_feedback_page_plays_the_replay_and_nothing_of_the_submission(browser, submission):
     _, marked = submission
     assert marked.points["test_drive"] == (0, 2)
-    page = browser.new_page(viewport={"width": 1100, "height": 900})
+    page = patient_page(browser, viewport={"width": 1100, "height": 900})
     check_page(page, marked.feedback.as_uri(), "feedback")
     page.reload()
     check_time_link(page)
@@ -116,7 +116,7 @@ def test_a_feedback_page_plays_the_replay_and_nothing_of_the_submission(browser,
 def test_the_formgrader_plays_the_replay_and_nothing_of_the_submission(browser, submission):
     folder, _ = submission
     with server(folder, "--allow-root") as address:
-        page = browser.new_page(viewport={"width": 1100, "height": 900})
+        page = patient_page(browser, viewport={"width": 1100, "height": 900})
         notebooks = f"{address}/formgrader/api/submitted_notebooks/01_tiny/tiny"
         right = next(one for one in page.request.get(notebooks).json() if one["student"] == "right")
         check_page(page, f"{address}/formgrader/submissions/{right['id']}/", "formgrader")
@@ -142,7 +142,7 @@ def marked_class(tmp_path_factory):
 
 def test_a_page_of_the_class_marker_plays_the_replay_and_tells_no_secret(browser, marked_class):
     path = marked_class / "class" / "feedback" / "anna" / corpus.ASSIGNMENT / "topics.html"
-    page = browser.new_page(viewport={"width": 1100, "height": 900})
+    page = patient_page(browser, viewport={"width": 1100, "height": 900})
     check_page(page, path.as_uri(), "feedback-of-mark")
     assert page.get_by_text("Expected:").count() > 0
     page.close()
@@ -152,7 +152,7 @@ def test_a_page_of_the_class_marker_plays_the_replay_and_tells_no_secret(browser
 
 def test_the_formgrader_plays_the_replay_of_the_class_marker(browser, marked_class):
     with server(marked_class, "--allow-root") as address:
-        page = browser.new_page(viewport={"width": 1100, "height": 900})
+        page = patient_page(browser, viewport={"width": 1100, "height": 900})
         notebooks = f"{address}/formgrader/api/submitted_notebooks/{corpus.ASSIGNMENT}/topics"
         (anna,) = page.request.get(notebooks).json()
         assert (anna["student"], anna["max_score"]) == ("anna", 33)

@@ -11,14 +11,19 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.browser.lab import ARTIFACTS, ROOT
+from tests.browser.pictures import patient_page
 from tests.marking.extras.hub.real_hub import COURSE, RealHub, real_hub, reason_to_skip
-from tests.patience import PATIENCE
+from tests.patience import until
 
 ASSIGNMENT = "01_nodes"
 NOTEBOOK = f"exercises/{ASSIGNMENT}/nodes.ipynb"
 STUDENTS = ANNA, BOB, CAROL = "hubtest-00", "hubtest-01", "hubtest-02"
 INES, TOM = "hubtest-ines", "hubtest-tom"
 DIALOG = ".modal.in"
+SCROLL_ON = """area => {
+    const isAtEnd = area.scrollTop + area.clientHeight >= area.scrollHeight - 1;
+    area.scrollTo(0, isAtEnd ? 0 : area.scrollTop + 300);
+}"""
 
 pytestmark = [
     pytest.mark.soak,
@@ -37,8 +42,7 @@ class Visitor:
     """A person with a browser of their own."""
 
     def __init__(self, browser: Browser, hub: RealHub, name: str) -> None:
-        self.page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
-        self.page.set_default_timeout(PATIENCE * 1000)
+        self.page = patient_page(browser, viewport={"width": 1440, "height": 900})
         self.hub, self.name = hub, name
 
     def log_in(self, path: str) -> Page:
@@ -80,11 +84,8 @@ class Student(Visitor):
         scroller.evaluate("area => area.scrollTo(0, 0)")
         first = text.strip().splitlines()[0]
         cell = self.page.locator(".jp-CodeCell", has_text=first).first
-        for _ in range(200):
-            if cell.count():
-                break
-            scroller.evaluate("area => area.scrollBy(0, 300)")
-            self.page.wait_for_timeout(50)
+        # Lab draws what comes into sight, on a busy machine late: from the end it goes on at the top.
+        until(lambda: cell.count() or scroller.evaluate(SCROLL_ON) or self.page.wait_for_timeout(50), first)
         cell.locator(".cm-content").click()
         self.page.keyboard.press("Control+a")
         self.page.keyboard.insert_text(replacement)

@@ -18,7 +18,7 @@ from sim.notebook.shared_scripts import SharedScripts
 from sim.view import animate, interactive, plot_path, plot_signal, replay, replay_data
 from sim.view.interactive import plot_script
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import COLORS, Picture, watch
+from tests.browser.pictures import COLORS, Picture, patient_page, watch
 from tests.sim.graphs import node
 from tests.students import misfits
 from tests.students.engine.pond import script
@@ -165,13 +165,13 @@ def test_a_dark_page_has_a_dark_picture_and_a_change_of_theme_is_followed(page, 
 
 
 def test_the_picture_is_as_wide_as_its_place_and_sharp(browser, rammed, tmp_path):
-    context = browser.new_context(viewport={"width": 380, "height": 800}, device_scale_factor=2)
-    picture = opened(context.new_page(), rammed, tmp_path)
+    page = patient_page(browser, viewport={"width": 380, "height": 800}, device_scale_factor=2)
+    picture = opened(page, rammed, tmp_path)
     width = picture.canvas.bounding_box()["width"]
     assert 330 < width < 380
     assert picture.canvas.evaluate("canvas => canvas.width") == pytest.approx(2 * width, abs=2)
     picture.screenshot("replay-file-narrow")
-    context.close()
+    page.close()
 
 
 def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_path):
@@ -393,11 +393,10 @@ def test_machines_replay_too(page, tmp_path):
 
 
 def test_without_scripts_the_picture_stays(browser, rammed, tmp_path):
-    context = browser.new_context(java_script_enabled=False)
-    page = context.new_page()
+    page = patient_page(browser, java_script_enabled=False)
     load(page, replay(rammed).html, tmp_path)
     assert page.locator("img").bounding_box()["width"] > 600
-    context.close()
+    page.close()
 
 
 def packed(data):

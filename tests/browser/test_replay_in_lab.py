@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tests.browser.lab import write_notebook
-from tests.browser.pictures import Picture, point_at, watch
+from tests.browser.pictures import Picture, patient_page, point_at, watch
 
 pytestmark = pytest.mark.browser
 CELLS = (
@@ -94,8 +94,7 @@ def test_a_notebook_that_is_not_trusted_shows_the_picture(saved, open_lab):
 def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
     command = [sys.executable, "-m", "nbconvert", "--to", "html", "--output-dir", str(tmp_path), str(saved)]
     subprocess.run(command, check=True, capture_output=True)
-    context = browser.new_context(offline=True, viewport={"width": 1000, "height": 900})
-    page = context.new_page()
+    page = patient_page(browser, offline=True, viewport={"width": 1000, "height": 900})
     requests = watch(page)
     page.goto((tmp_path / "replay.html").as_uri())
     picture = Picture(page.locator(".ros2-view:has(.scrub)"))
@@ -105,7 +104,7 @@ def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
     # nbconvert's own: for formulas, and for the sliders that a notebook has saved
     own = ("https://cdnjs.cloudflare.com/", "https://unpkg.com/")
     assert all(url.startswith(("file:", "data:", *own)) for url in requests)
-    context.close()
+    page.close()
 
 
 def test_a_replay_fits_a_narrow_dark_window(saved, open_lab):

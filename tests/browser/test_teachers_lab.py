@@ -8,6 +8,7 @@ import pytest
 
 from grader.marking.command.mark_class import Settings, mark_class
 from tests.browser.lab import ROOT, Lab, log_of, server
+from tests.browser.pictures import patient_page
 from tests.marking.classroom import ASSIGNMENT, classroom, submit
 from tests.marking.fake_pool import opening
 
@@ -47,7 +48,7 @@ def test_the_address_that_is_printed_leads_to_the_formgrader_and_keeps_its_token
 
 @pytest.mark.browser
 def test_lab_opens_on_the_formgrader_and_a_marked_submission_can_be_seen(browser, address):
-    page = browser.new_page(viewport={"width": 1280, "height": 900})
+    page = patient_page(browser, viewport={"width": 1280, "height": 900})
     lab = Lab(page, address)
     page.goto(address)
     panel = page.frame_locator("iframe[src*='formgrader']")

@@ -1,6 +1,7 @@
 """Every hint of an exercise has a wrong node that gets it, or a test that shows it."""
 
 import ast
+import functools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,6 +38,7 @@ def _is_unread(node: ast.AST) -> bool:
     return name in FOR_AUTHORS
 
 
+@functools.cache
 def shown_somewhere() -> str:
     """Every score page, and every test of the grader, with one space between words."""
     files = [*(ROOT / "tests/exercises").rglob("*.txt"), *(ROOT / "tests/exercises").rglob("test_*.py")]

@@ -4,9 +4,9 @@ import textwrap
 
 import nbformat
 import pytest
-from nbclient import NotebookClient
 from nbgrader.utils import determine_grade
 
+from grader.marking.release.run_notebooks import notebook_client
 from tests.patience import PATIENCE
 
 SETUP = """
@@ -55,7 +55,7 @@ def cells():
     sources = [textwrap.dedent(SETUP), *CASES]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in sources])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    NotebookClient(notebook, timeout=PATIENCE, startup_timeout=PATIENCE).execute()
+    notebook_client(notebook, PATIENCE, allow_errors=False).execute()
     return {cell.source: cell for cell in notebook.cells}
 
 

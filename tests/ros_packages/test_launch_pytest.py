@@ -42,9 +42,14 @@ def server():
 def description(program):
     return LaunchDescription([program, ReadyToTest()])
 
+def ready_when_up(server):
+    up = OnProcessIO(target_action=server, on_stdout=lambda event: [ReadyToTest()])
+    ended = OnProcessExit(target_action=server, on_exit=[ReadyToTest()])
+    return [RegisterEventHandler(up), RegisterEventHandler(ended)]
+
 @launch_pytest.fixture
-def serving(server):
-    return [LaunchDescription([server]), server]
+def serving(server):  # a Python that is still starting would not end as one that waits
+    return [LaunchDescription([server, *ready_when_up(server)]), server]
 
 @launch_pytest.fixture(scope="module")
 def shared():
@@ -63,9 +68,7 @@ def test_a_fixture_that_yields(server, launch_context):
 @launch_pytest.fixture(name="late")
 def when_up(request):
     server = python("import time; print('up', flush=True); time.sleep(1000)")
-    ready = OnProcessIO(target_action=server, on_stdout=lambda event: [ReadyToTest()])
-    both = RegisterEventHandler(OnProcessExit(target_action=server, on_exit=[ReadyToTest()]))
-    return LaunchDescription([server, RegisterEventHandler(ready), both]), server
+    return LaunchDescription([server, *ready_when_up(server)]), server
 
 @pytest.mark.launch(fixture=shared, shutdown=True)
 def test_shut_down_tests_run_last(launch_service):

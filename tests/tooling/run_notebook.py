@@ -11,15 +11,14 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
-SECONDS = 600.0  # for a cell, only against hanging
+SECONDS = 600  # for a cell, only against hanging
 
 
 def main(path: Path) -> None:
     """Run the notebook, even if cells raise, and print what it showed."""
     notebook = nbformat.read(path, 4)
-    client = NotebookClient(
-        notebook, timeout=SECONDS, startup_timeout=SECONDS, kernel_name="python3", allow_errors=True
-    )
+    patience = dict.fromkeys(("timeout", "startup_timeout", "iopub_timeout"), SECONDS)
+    client = NotebookClient(notebook, kernel_name="python3", allow_errors=True, **patience)
     client.comm_open_handlers.clear()  # while it answers widgets it may miss that a cell is done
     client.execute(cwd=str(path.parent))
     errors, texts = [], []

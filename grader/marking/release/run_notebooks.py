@@ -20,7 +20,7 @@ from nbgrader.utils import determine_grade, is_grade
 # The start page lists exercises; page 10 of the bridge runs the navigator of lesson 6b.
 READ_BY_OTHERS = "exercises", "06_navigator"
 SECONDS_PER_CELL = 1800  # only against hanging: a busy machine compiles for minutes
-KERNEL_START = 600  # s, likewise
+KERNEL_START = OUTPUT_LATE = 600  # s, likewise; nbclient reads no further output of a cell after the latter
 KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns about its open ports
 
 
@@ -110,7 +110,7 @@ def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> N
     While nbclient answers a widget's messages, it may miss that the cell is done, and wait until the limit.
     """
     options = {"kernel_name": "python3", "allow_errors": True, "startup_timeout": KERNEL_START, **options}
-    client = NotebookClient(notebook, timeout=seconds, **options)
+    client = NotebookClient(notebook, timeout=seconds, iopub_timeout=OUTPUT_LATE, **options)
     client.comm_open_handlers.clear()
     return client
 

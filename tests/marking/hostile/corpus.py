@@ -40,7 +40,7 @@ HONEST = {"honest_right": 1.0, "honest_half": 0.5, "honest_starter": 0.0}
 KEPT = re.compile(r"setup|(temperature|square)(-points)?")
 # Whom a limit of wall time stops; all others have the usual limits, which no busy machine reaches.
 WITHOUT_END = ("endless_loop", "fake_clock", "leftover_thread", "nodes_without_end", "print_flood")
-QUICK = TimeLimits(cell=4.0, test=15.0)
+QUICK = TimeLimits(cell=15.0, test=15.0)
 
 
 def course(folder: Path) -> Path:

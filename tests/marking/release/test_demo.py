@@ -14,6 +14,7 @@ from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES
 from grader.marking.secret import ACCEPTED, WITHOUT_SANDBOX
 from tests.marking.tiny import ROOT, course, grade, tiny
+from tests.patience import PATIENCE
 
 STEPS: list[str] = []
 TABLE = "<table><caption>a table</caption></table>"
@@ -135,11 +136,11 @@ def test_validate_waits_less_than_marking(tmp_path, monkeypatch):
 
 
 def test_validate_names_an_answer_cell_that_it_stopped(tmp_path, monkeypatch, capsys):
-    answer = nbformat.v4.new_code_cell("import time\ntime.sleep(60)\nBattery = 1", id="answer")
+    answer = nbformat.v4.new_code_cell(f"import time\ntime.sleep({PATIENCE})\nBattery = 1", id="answer")
     folder = course(tmp_path, answer, grade("test_battery", 1, "assert Battery"))
     other = course(tmp_path / "other", grade("test_battery", 1, "assert Battery"))
     config = configuration(monkeypatch, folder)
-    config.Validator.Execute.timeout = 5
+    config.Validator.Execute.timeout_func = lambda cell: 1 if "sleep" in cell.source else PATIENCE
     notebook = Path("solutions", "01_tiny", "tiny.ipynb")
     [failed] = Validator(config=config).validate(str(folder / notebook))["failed"]
     assert failed["raw_error"].startswith(

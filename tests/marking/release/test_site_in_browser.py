@@ -8,10 +8,9 @@ from playwright.sync_api import expect
 from grader.marking.release import make_site
 from tests.browser.contrast import poor_texts
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import chromium
+from tests.browser.pictures import chromium, patient_page
 from tests.marking.release.test_make_site import small_course
 from tests.marking.tiny import ROOT
-from tests.patience import PATIENCE
 
 SPHINX = ROOT / ".venv-site" / "bin" / "sphinx-build"
 
@@ -23,7 +22,6 @@ def site(tmp_path_factory) -> str:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(course)
         assert make_site.main(["--sphinx", str(SPHINX)]) == 0
-    expect.set_options(timeout=1000 * PATIENCE)
     return (course / "dist" / "site").as_uri()
 
 
@@ -38,7 +36,7 @@ def in_browser(test):
 def test_a_folder_without_a_server_has_replays_search_and_links(site):
     elsewhere = []
     with chromium() as browser:
-        page = browser.new_page()
+        page = patient_page(browser)
         page.on("request", lambda request: elsewhere.append(request.url))
         page.goto(f"{site}/index.html")
         expect(page.locator(".home .ros2-view canvas").first).to_be_visible()
@@ -69,7 +67,7 @@ def test_a_folder_without_a_server_has_replays_search_and_links(site):
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_pages_fit_a_telephone_and_can_be_read(site, theme):
     with chromium() as browser:
-        page = browser.new_page(viewport={"width": 390, "height": 844}, color_scheme=theme)
+        page = patient_page(browser, viewport={"width": 390, "height": 844}, color_scheme=theme)
         for name in ("index", "course/01_nodes/lesson", "exercises/01_nodes/nodes", "search"):
             page.goto(f"{site}/{name}.html{'?q=program' if name == 'search' else ''}")
             shown = {"index": ".home .ros2-view canvas", "search": "ul.search p.context"}.get(name, "h1")
@@ -88,7 +86,7 @@ def test_pages_fit_a_telephone_and_can_be_read(site, theme):
 @in_browser
 def test_search_works_with_the_keyboard_alone(site):
     with chromium() as browser:
-        page = browser.new_page(viewport={"width": 1440, "height": 900})
+        page = patient_page(browser, viewport={"width": 1440, "height": 900})
         page.goto(f"{site}/index.html")
         for _ in range(20):
             page.keyboard.press("Tab")

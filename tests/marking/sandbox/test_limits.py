@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from grader.marking.sandbox import ResourceLimits, supervisor
+from grader.marking.sandbox.process_tree import TreeUsage
 from tests.marking.sandbox.commanded import Commanded, fork_server, sandbox, state
 from tests.patience import until
 
@@ -61,7 +62,7 @@ class SimulatedMachine:
     It takes the place of what the supervisor asks the system for. late: how much later each look comes (s).
     """
 
-    def __init__(self, monkeypatch, cores: int, computes: float, late: float):
+    def __init__(self, monkeypatch, cores: float, computes: float, late: float):
         self.now, self.used, self.cores, self.computes, self.late = 0.0, 0.0, cores, computes, late
         self.runs = True
         self.continued: list[tuple[float, float]] = []  # computed by then, and when
@@ -69,6 +70,7 @@ class SimulatedMachine:
         monkeypatch.setattr(supervisor, "select", SimpleNamespace(poll=lambda: self, POLLIN=0))
         monkeypatch.setattr(supervisor, "os", SimpleNamespace(kill=self.kill, sysconf=os.sysconf))
         monkeypatch.setattr(supervisor, "_read", self.read)
+        monkeypatch.setattr(supervisor, "tree_usage", lambda *_: TreeUsage(self.used, threads=1))
 
     def register(self, descriptor: int, events: int) -> None:
         """As a poll object."""
@@ -233,10 +235,10 @@ def test_programs_that_do_nothing_for_long_are_stopped(tight):
     assert ending.detail == "The process did nothing for more than the 1 s that are allowed."
 
 
-def test_programs_that_compute_are_not_idle(tight):
-    commanded = tight(programs=True, idle_s=2.0, cpu_s=4)
-    commanded.tell("while True: pass")
-    assert commanded.ending().kind == "cpu"
+@pytest.mark.parametrize(("cores", "kind"), [(1.0, "cpu"), (0.05, "cpu"), (0.001, "idle")])
+def test_programs_that_compute_are_not_idle_however_busy_the_machine_is(monkeypatch, cores, kind):
+    SimulatedMachine(monkeypatch, cores, computes=500.0, late=0.0)
+    assert supervisor._watch(7, 8, 9, ResourceLimits(programs=True, idle_s=10.0, cpu_s=20)) == kind
 
 
 def test_limits_cannot_be_raised(commanded):

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.patience import PATIENCE
 from tests.sim.notebook.test_kernel import Kernel
 
 TUTORIAL = """
@@ -88,7 +89,17 @@ def test_lines_without_a_function_and_executors(kernel):
     assert kernel.run(CLEAN, "after").strip() == "(False, None, None, None)"
 
 
-def test_a_spin_with_an_end_is_left_alone(kernel):
+@pytest.fixture
+def patient_kernel(kernel):
+    """The kernel with a limit that no machine is too slow for."""
+    kernel.run("from sim.notebook import spin_outside_run", "import")
+    kernel.run(f"usual, spin_outside_run.LIMIT = spin_outside_run.LIMIT, {PATIENCE}", "patient")
+    yield kernel
+    kernel.run("spin_outside_run.LIMIT = usual", "usual")
+
+
+def test_a_spin_with_an_end_is_left_alone(patient_kernel):
+    kernel = patient_kernel
     kernel.run(TUTORIAL, "tutorial")
     code = "rclpy.init()\nnode = MinimalPublisher()\nnode.create_timer(0.6, rclpy.shutdown)\n"
     code += "rclpy.spin(node)\nnode.count"
@@ -101,13 +112,19 @@ def test_a_spin_with_an_end_is_left_alone(kernel):
 def test_in_a_run_and_in_another_thread_nothing_changes(kernel):
     kernel.run(TUTORIAL, "tutorial")
     assert kernel.run("from sim import run; run(main, seconds=20).ended.reason", "run").strip() == "'time'"
-    code = """
+    code = f"""
 import threading
+
+class Fifth(MinimalPublisher):
+    def timer_callback(self):
+        super().timer_callback()
+        if self.count == 5:  # after 2.5 s at the earliest
+            rclpy.shutdown()
+
 rclpy.init()
-node = MinimalPublisher()
-node.create_timer(2.5, rclpy.shutdown)
+node = Fifth()
 thread = threading.Thread(target=rclpy.spin, args=[node])
-thread.start(); thread.join(60)
-node.count >= 4
+thread.start(); thread.join({PATIENCE})
+thread.is_alive(), node.count
 """
-    assert kernel.run(code, "thread").strip() == "True"
+    assert kernel.run(code, "thread").strip() == "(False, 5)"

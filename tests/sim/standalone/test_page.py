@@ -14,7 +14,7 @@ from playwright.sync_api import expect
 
 from sim.standalone import live_page, server
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import COLORS, chromium
+from tests.browser.pictures import COLORS, chromium, patient_page
 from tests.patience import PATIENCE
 from tests.sim.standalone.programs import ended, robot
 
@@ -27,7 +27,6 @@ BAD = (400, b"Bad Request\n")
 
 @pytest.fixture(scope="module")
 def browser():
-    expect.set_options(timeout=1000 * PATIENCE)
     with chromium() as started:
         yield started
 
@@ -48,12 +47,6 @@ def request(page, method, path, body=None, **headers):
     connection.request(method, path, body, {"Host": f"localhost:{page.port}"} | names)
     answer = connection.getresponse()
     return answer.status, answer.read()
-
-
-def patient_page(browser):
-    page = browser.new_page()
-    page.set_default_timeout(1000 * PATIENCE)
-    return page
 
 
 @pytest.mark.parametrize(("user", "served"), [(0, True), (os.geteuid(), True), (None, True), (4242, False)])
