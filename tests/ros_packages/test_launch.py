@@ -519,13 +519,13 @@ def test_yaml_says_the_same(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("- nod: {}", "Unrecognized entity of the type: nod. There are append_env, arg, "),
+        ("- nod: {}", "Unrecognized entity of the type: nod. There are arg, executable, "),
         ("- node: {pkg: a}", "Can not find attribute 'exec' in Entity 'node'"),
         ("- log: {message: a, mesage: b}", "Unexpected key(s) found in `log`: {'mesage'}"),
         ("- log: {message: a}\n  arg: {name: b}", "Subentities must be a dictionary with only one key"),
         ("- log: {message: $(var)}", "var substitution expects 1 or 2 argument(s), not 0"),
         ("- log: {message: $(dirname x)}", "dirname substitution expects 0 argument(s), not 1"),
-        ("- log: {message: $(find-pkg x)}", "Unknown substitution: find-pkg. There are all, and, any, "),
+        ("- log: {message: $(find-pkg x)}", "Unknown substitution: find-pkg. There are command, dirname, "),
         ("- log: {message: $(var x}", "'$(var x' can't be read: there is no ) at the end of $(var ..."),
         ("- log: {message: $(3)}", "'$(3)' can't be read from '$(3)' on."),
         (

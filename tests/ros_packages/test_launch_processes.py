@@ -23,7 +23,7 @@ from launch.events.process import ShutdownProcess, SignalProcess
 from launch.logging import launch_config
 from launch.processes import SystemProcessStarter
 from launch.utilities import text_of
-from launch_ros.actions import Node, SetParameter, SetParametersFromFile
+from launch_ros.actions import Node, SetParameter
 from launch_ros.substitutions import ExecutableInPackage
 
 from tests.patience import PATIENCE
@@ -254,21 +254,12 @@ def test_a_node_is_a_program_with_ros_own_words(launched):
     assert Path(file).read_text() == "/s/n:\n  ros__parameters:\n    a: 1\n"
 
 
-def test_parameters_of_a_file_are_for_all_later_nodes_of_the_group(launched, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("all.yaml").write_text("/**: {ros__parameters: {a: 1}}")
-    node = Node(executable="echo", name="n", parameters=["/no/such.yaml"], output="screen")
-    files = [SetParametersFromFile(name) for name in ("all.yaml", "none.yaml")]
-    group = GroupAction([files[0], SetParameter("b", 2), files[1], node])
+def test_a_parameter_is_for_all_later_nodes_of_the_group(launched):
+    group = GroupAction([SetParameter("b", 2), Node(executable="echo", name="n", output="screen")])
     _, lines = launched(group, Node(executable="echo", name="m", output="screen"))
-    warning = "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file:"
-    assert [line for line in lines if line.startswith("[WARN")] == [
-        f"{warning} LOGS/none.yaml",
-        f"{warning} /no/such.yaml",
-    ]
     # Two processes: either may be first.
     assert sorted(line for line in lines if line.startswith("[echo")) == [
-        "[echo-1] --ros-args -r __node:=n --params-file LOGS/all.yaml -p b:=2",
+        "[echo-1] --ros-args -r __node:=n -p b:=2",
         "[echo-2] --ros-args -r __node:=m",
     ]
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
+from typing import NoReturn
 
 from launch.condition import Condition
 from launch.launch_context import LaunchContext
 from launch.substitution import SomeSubstitutionsType, Substitution
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions, text_of
+from launch.unsupported import refuse
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = [
     "IfCondition",
     "InvalidConditionExpressionError",
-    "LaunchConfigurationEquals",
-    "LaunchConfigurationNotEquals",
     "UnlessCondition",
     "evaluate_condition_expression",
 ]
@@ -54,22 +53,5 @@ class UnlessCondition(Condition):
         super().__init__(predicate=lambda context: not evaluate_condition_expression(context, expression))
 
 
-class LaunchConfigurationEquals(Condition):
-    """The action is executed if a launch configuration has this value; None: if it isn't set. Deprecated."""
-
-    def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
-        super().__init__(predicate=self._holds)
-        self.__name, self.__expected = launch_configuration_name, expected_value
-        text = f"{type(self).__name__} is deprecated. Use IfCondition with an EqualsSubstitution or a "
-        warnings.warn(f"{text}NotEqualsSubstitution instead.", stacklevel=2)
-
-    def _holds(self, context: LaunchContext) -> bool:
-        expected = None if self.__expected is None else text_of(context, self.__expected)
-        return context.launch_configurations.get(self.__name) == expected
-
-
-class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """The action is executed if a launch configuration has another value; None: if it is set. Deprecated."""
-
-    def _holds(self, context: LaunchContext) -> bool:
-        return not super()._holds(context)
+def __getattr__(name: str) -> NoReturn:
+    refuse(__name__, name, __all__)

@@ -140,7 +140,4 @@ class LaunchContext:
 
     def _reset_scope(self) -> None:
         self.launch_configurations = {}
-        self._reset_environment()
-
-    def _reset_environment(self) -> None:
         self.environment = dict(self._initial_environment)

@@ -5,17 +5,23 @@ from typing import NoReturn
 
 LEFT_OUT = {
     "launch.actions": (
-        "ExecuteLocal OpaqueCoroutine PopEnvironment PopLaunchConfigurations PushEnvironment "
-        "PushLaunchConfigurations UnregisterEventHandler"
+        "AppendEnvironmentVariable ExecuteLocal OpaqueCoroutine PopEnvironment PopLaunchConfigurations "
+        "PushEnvironment PushLaunchConfigurations ResetEnvironment ResetLaunchConfigurations "
+        "UnregisterEventHandler UnsetEnvironmentVariable UnsetLaunchConfiguration"
     ),
+    "launch.conditions": "LaunchConfigurationEquals LaunchConfigurationNotEquals",
     "launch.event_handlers": "OnIncludeLaunchDescription event_named",
     "launch.launch_description_sources": (
         "FrontendLaunchDescriptionSource InvalidFrontendLaunchFileError "
         "get_launch_description_from_frontend_launch_file"
     ),
-    "launch.substitutions": "AnonName LaunchLogDir",
+    "launch.substitutions": (
+        "AllSubstitution AndSubstitution AnonName AnySubstitution FileContent IfElseSubstitution "
+        "LaunchLogDir NotSubstitution OrSubstitution ThisLaunchFile"
+    ),
     "launch_ros.actions": (
-        "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetROSLogDir SetUseSimTime"
+        "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetParametersFromFile SetROSLogDir "
+        "SetUseSimTime"
     ),
     "launch_ros.descriptions": "ComposableNode Parameter",
     "launch_ros.substitutions": "Parameter",

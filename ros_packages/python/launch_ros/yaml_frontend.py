@@ -15,7 +15,6 @@ from launch_ros.actions import (
     Node,
     PushRosNamespace,
     SetParameter,
-    SetParametersFromFile,
     SetRemap,
 )
 from launch_ros.parameters import ParameterFile, ParameterValue
@@ -118,8 +117,3 @@ def _set_remap(entity: Entity) -> Action:
 def _set_parameter(entity: Entity) -> Action:
     name, value = entity.get_text("name", optional=False), entity.get_text("value", optional=False)
     return SetParameter(name, value[0] if len(value) == 1 else value, **entity.condition())
-
-
-@expose_action("set_parameters_from_file")
-def _set_parameters_from_file(entity: Entity) -> Action:
-    return SetParametersFromFile(entity.get_text("filename", optional=False), **entity.condition())

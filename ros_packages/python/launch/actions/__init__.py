@@ -10,22 +10,11 @@ from launch.actions.include_launch_description import IncludeLaunchDescription
 from launch.actions.log_info import LogInfo
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.register_event_handler import RegisterEventHandler
-from launch.actions.set_values import (
-    AppendEnvironmentVariable,
-    SetEnvironmentVariable,
-    SetLaunchConfiguration,
-)
+from launch.actions.set_values import SetEnvironmentVariable, SetLaunchConfiguration
 from launch.actions.timer_action import TimerAction
-from launch.actions.unset_values import (
-    ResetEnvironment,
-    ResetLaunchConfigurations,
-    UnsetEnvironmentVariable,
-    UnsetLaunchConfiguration,
-)
 from launch.unsupported import refuse
 
 __all__ = [
-    "AppendEnvironmentVariable",
     "DeclareLaunchArgument",
     "EmitEvent",
     "ExecuteProcess",
@@ -34,14 +23,10 @@ __all__ = [
     "LogInfo",
     "OpaqueFunction",
     "RegisterEventHandler",
-    "ResetEnvironment",
-    "ResetLaunchConfigurations",
     "SetEnvironmentVariable",
     "SetLaunchConfiguration",
     "Shutdown",
     "TimerAction",
-    "UnsetEnvironmentVariable",
-    "UnsetLaunchConfiguration",
 ]
 
 

@@ -1,4 +1,4 @@
-"""The substitutions for the launch file that uses them: its path, and its folder."""
+"""The substitution `ThisLaunchFileDir`."""
 
 from __future__ import annotations
 
@@ -6,28 +6,16 @@ from launch.launch_context import LaunchContext
 from launch.substitution import Substitution, SubstitutionFailure
 
 
-class _OfThisLaunchFile(Substitution):
-    local: str  # its name in the context
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file that uses it."""
 
     def describe(self) -> str:
         """Work like `Substitution`."""
-        return f"{type(self).__name__}()"
+        return "ThisLaunchFileDir()"
 
     def perform(self, context: LaunchContext) -> str:
         """Work like `Substitution`."""
         known = context.get_locals_as_dict()
-        if self.local not in known:
-            raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")
-        return known[self.local]
-
-
-class ThisLaunchFile(_OfThisLaunchFile):
-    """The path of the launch file that uses it."""
-
-    local = "current_launch_file_path"
-
-
-class ThisLaunchFileDir(_OfThisLaunchFile):
-    """The folder of the launch file that uses it."""
-
-    local = "current_launch_file_directory"
+        if "current_launch_file_directory" not in known:
+            raise SubstitutionFailure("ThisLaunchFileDir used outside of a launch file (in a script)")
+        return known["current_launch_file_directory"]

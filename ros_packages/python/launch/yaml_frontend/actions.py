@@ -37,29 +37,6 @@ def _set_env(entity: Entity) -> Action:
     return actions.SetEnvironmentVariable(name, value, **entity.condition())
 
 
-@expose_action("append_env")
-def _append_env(entity: Entity) -> Action:
-    name, value = entity.get_text("name", optional=False), entity.get_text("value", optional=False)
-    options = {"prepend": entity.get_text("prepend"), "separator": entity.get_text("separator")}
-    given = {key: option for key, option in options.items() if option is not None}
-    return actions.AppendEnvironmentVariable(name, value, **given, **entity.condition())
-
-
-@expose_action("unset_env")
-def _unset_env(entity: Entity) -> Action:
-    return actions.UnsetEnvironmentVariable(entity.get_text("name", optional=False), **entity.condition())
-
-
-@expose_action("reset_env")
-def _reset_env(entity: Entity) -> Action:
-    return actions.ResetEnvironment(**entity.condition())
-
-
-@expose_action("reset")
-def _reset(entity: Entity) -> Action:
-    return actions.ResetLaunchConfigurations(_kept(entity), **entity.condition())
-
-
 @expose_action("log")
 def _log(entity: Entity) -> Action:
     return actions.LogInfo(msg=entity.get_text("message", optional=False), **entity.condition())
@@ -75,21 +52,17 @@ def _shutdown(entity: Entity) -> Action:
 @expose_action("group")
 def _group(entity: Entity) -> Action:
     scoped, forwarding = (entity.get(key, bool, optional=True) for key in ("scoped", "forwarding"))
+    kept = {
+        tuple(keep.get_text("name", False)): keep.get_text("value", False)
+        for keep in entity.get_entities("keep")
+    }
     return actions.GroupAction(
         entity.children(),
         scoped=scoped is not False,
         forwarding=forwarding is not False,
-        launch_configurations=_kept(entity),
+        launch_configurations=kept,
         **entity.condition(),
     )
-
-
-def _kept(entity: Entity) -> dict[tuple[Substitution, ...], list[Substitution]]:
-    """The launch configurations that its `keep` entities set."""
-    return {
-        tuple(keep.get_text("name", False)): keep.get_text("value", False)
-        for keep in entity.get_entities("keep")
-    }
 
 
 @expose_action("include")

@@ -7,42 +7,25 @@ from collections.abc import Callable
 
 from launch.substitution import Substitution
 from launch.substitutions import (
-    AllSubstitution,
-    AndSubstitution,
-    AnySubstitution,
     Command,
     EnvironmentVariable,
     EqualsSubstitution,
-    FileContent,
-    IfElseSubstitution,
     LaunchConfiguration,
     NotEqualsSubstitution,
-    NotSubstitution,
-    OrSubstitution,
     PythonExpression,
     TextSubstitution,
-    ThisLaunchFile,
     ThisLaunchFileDir,
 )
 
-MANY = 1_000  # arguments of a substitution that takes any number of them
 # By name: the least and the greatest number of arguments, and the function that makes the substitution.
 SUBSTITUTIONS: dict[str, tuple[int, int, Callable[..., Substitution]]] = {
     "var": (1, 2, lambda name, default=None: LaunchConfiguration(name, default=default)),
     "env": (1, 2, lambda name, default=None: EnvironmentVariable(name, default_value=default)),
     "eval": (1, 1, PythonExpression),
     "dirname": (0, 0, ThisLaunchFileDir),
-    "filename": (0, 0, ThisLaunchFile),
-    "file-content": (1, 1, FileContent),
-    "if": (2, 3, IfElseSubstitution),
     "command": (1, 2, lambda command, on_stderr="fail": Command(command, on_stderr=on_stderr)),
     "equals": (2, 2, EqualsSubstitution),
     "not-equals": (2, 2, NotEqualsSubstitution),
-    "not": (1, 1, NotSubstitution),
-    "and": (2, 2, AndSubstitution),
-    "or": (2, 2, OrSubstitution),
-    "any": (0, MANY, AnySubstitution),
-    "all": (0, MANY, AllSubstitution),
 }
 OF_ROS1 = {"find": "find-pkg-share", "arg": "var", "optenv": "env"}
 NAME = re.compile(r"\$\(([A-Za-z][\w-]*)")

@@ -9,7 +9,6 @@ from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node import Node
 from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
 from launch_ros.actions.set_parameter import SetParameter
-from launch_ros.actions.set_parameters_from_file import SetParametersFromFile
 from launch_ros.actions.set_remap import SetRemap
 
 __all__ = [
@@ -19,7 +18,6 @@ __all__ = [
     "PushROSNamespace",
     "PushRosNamespace",
     "SetParameter",
-    "SetParametersFromFile",
     "SetRemap",
 ]
 

@@ -154,15 +154,11 @@ class Node(ExecuteProcess):
 
 
 def _arguments_for_all_nodes(context: LaunchContext) -> list[str]:
-    """The arguments for what SetParameter and SetParametersFromFile have set."""
+    """The arguments for what SetParameter has set."""
     arguments = []
-    for given in context.launch_configurations.get(GLOBAL_PARAMETERS, ()):
-        if isinstance(given, str):
-            arguments += _file_arguments(Path(given).absolute())
-        else:
-            name, value = given
-            text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
-            arguments += ["-p", f"{name}:={text}"]
+    for name, value in context.launch_configurations.get(GLOBAL_PARAMETERS, ()):
+        text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
+        arguments += ["-p", f"{name}:={text}"]
     return arguments
 
 
