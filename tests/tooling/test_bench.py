@@ -48,8 +48,8 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert bench.main(["speed"]) == 2
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
-        "the benchmarks are scenario, startup, world, transforms, repeats, orders, digests, "
-        "grading, marking, pace, view, navigator, localized, capstone, hub.\n"
+        "the benchmarks are scenario, startup, world, transforms, repeats, digests, "
+        "marking, pace, view, navigator, localized, capstone, hub.\n"
     )
 
 
