@@ -2,7 +2,7 @@
 
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
-from rcl_interfaces.msg import Log, ParameterEvent
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.action import ActionClient
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -177,15 +177,6 @@ class Gossip(Node):
     def on_message(self, event):
         changed = [parameter.name for parameter in event.changed_parameters]
         self.get_logger().info(f"{event.node} {changed}")
-
-
-class LogReader(Node):
-    """Listens to what others log, and logs no answer."""
-
-    def __init__(self):
-        super().__init__("log_reader")
-        self.out = self.create_publisher(String, "read", 10)
-        self.create_subscription(Log, "/rosout", lambda log: self.out.publish(String(data=log.msg)), 10)
 
 
 class OtherService(Node):

@@ -6,19 +6,9 @@ import threading
 import pytest
 from rclpy.node import Node
 
-from grader import Exercise, check
 from sim import run
 from sim.ros.remote import Remote, RemoteLost, Wire, WireBroken, WireClosed, serve
 from tests.patience import PATIENCE
-
-
-@check(points=5)
-def is_there(recording):
-    """The node is there."""
-    assert recording.graph.nodes
-
-
-BEING = Exercise("being", "Being there", [is_there], seconds=1)
 
 
 class Idle(Node):
