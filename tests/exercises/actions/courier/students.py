@@ -1,6 +1,5 @@
 """Clients that give up in time: right ones, and wrong ones named by their defect."""
 
-import time
 
 import rclpy
 from action_msgs.msg import GoalStatus
@@ -132,15 +131,6 @@ class Impatient(Courier):
     patience = 3.0
 
 
-class GivesUpAtOnce(Courier):
-    """Brackets too many: what is handed over is what give_up returns."""
-
-    def on_response(self, future):
-        self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.on_result)
-        self.timer = self.create_timer(8.0, self.give_up())
-
-
 class GivesUpTooLate(Courier):
     patience = 12.0
 
@@ -164,15 +154,6 @@ class SaysBoth(Courier):
         self.get_logger().info("Arrived, or so.")
 
 
-class WarnsWithoutTheReason(Courier):
-    def on_result(self, future):
-        self.timer.cancel()
-        if future.result().status == GoalStatus.STATUS_SUCCEEDED:
-            self.get_logger().info("arrived")
-        else:
-            self.get_logger().warning("It took too long.")
-
-
 class StatusOfTheResult(Courier):
     """The status is beside the result, not in it."""
 
@@ -190,27 +171,6 @@ class ComparesWithTheErrorCode(Courier):
             self.get_logger().info("arrived")
         else:
             self.get_logger().warning(future.result().result.error_msg)
-
-
-class SaysNothing(Courier):
-    def on_result(self, future):
-        self.timer.cancel()
-
-
-class SleepsInPlaceOfATimer(Courier):
-    """While it sleeps it can't receive the result."""
-
-    def on_response(self, future):
-        self.goal_handle = future.result()
-        self.goal_handle.get_result_async().add_done_callback(self.on_result)
-        time.sleep(8.0)
-        self.goal_handle.cancel_goal_async()
-
-
-class NeverAsksForTheResult(Courier):
-    def on_response(self, future):
-        self.goal_handle = future.result()
-        self.timer = self.create_timer(self.patience, self.give_up)
 
 
 def main_that_asks_and_ends():
