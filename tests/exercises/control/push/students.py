@@ -1,7 +1,6 @@
 """Controllers for any pole, and any push: right ones, and wrong ones named by their defect."""
 
 import threading
-import time
 
 import numpy as np
 import rclpy
@@ -253,10 +252,6 @@ class AngleOnly(Balancer):
     gains = 60.0, 9.0, 0.0, 0.0
 
 
-class NoD(Balancer):
-    gains = 60.0, 0.0, 10.0, 11.0
-
-
 class SignTurned(Balancer):
     gains = tuple(-gain for gain in Balancer.gains)
 
@@ -275,20 +270,10 @@ class NoLimit(Balancer):
     limit = 1000.0
 
 
-class ComesBackSlowly(Balancer):
-    gains = 60.0, 9.0, 1.0, 5.0
-
-
 class Nervous(Balancer):
     """Too little D for its P: it swings for long."""
 
     gains = 60.0, 3.6, 3.0, 6.0
-
-
-class Sleeps(Balancer):
-    def push(self, effort):
-        super().push(effort)
-        time.sleep(0.06)
 
 
 class Idle(Balancer):
@@ -310,33 +295,6 @@ class ByNameAndNewest(Balancer):
         self.push(effort + 10.0 * msg.position[slider] + 11.0 * msg.velocity[slider])
 
 
-class SwapsTheJoints(Balancer):
-    def on_joints(self, msg):
-        msg.position, msg.velocity = msg.position[::-1], msg.velocity[::-1]
-        super().on_joints(msg)
-
-
-class LimitsOneSideOnly(Balancer):
-    """Forgets the other sign."""
-
-    def push(self, effort):
-        self.publisher.publish(Float64(data=min(10.0, effort)))
-
-
-class AveragesForLong(Balancer):
-    """A mean of 20 states is smooth, and 0.1 s late."""
-
-    def __init__(self):
-        super().__init__()
-        self.states = []
-
-    def on_joints(self, msg):
-        self.states = [*self.states, [*msg.position, *msg.velocity]][-20:]
-        x, angle, speed, rate = np.mean(self.states, axis=0)
-        msg.position, msg.velocity = [x, angle], [speed, rate]
-        super().on_joints(msg)
-
-
 class WindsUp(Balancer):
     """An integral of the place, without a limit."""
 
@@ -346,23 +304,6 @@ class WindsUp(Balancer):
         self.total += 0.01 * msg.position[0]
         (x, angle), (speed, rate) = msg.position, msg.velocity
         self.push(-60.0 * angle - 9.0 * rate + 10.0 * x + 11.0 * speed + 15.0 * self.total)
-
-
-class GivesUpFarOut(Balancer):
-    """Where it is hard to hold, it lets the motor rest."""
-
-    def on_joints(self, msg):
-        if abs(msg.position[1]) < 0.12:
-            super().on_joints(msg)
-        else:
-            self.push(0.0)
-
-
-class QuietInTheMiddle(Balancer):
-    """Near enough is good enough: no force while the pole is almost upright. It sways without end."""
-
-    def push(self, effort):
-        super().push(effort if abs(effort) > 2.5 else 0.0)
 
 
 class NotANumber(Balancer):
