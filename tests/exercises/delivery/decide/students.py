@@ -209,13 +209,6 @@ class FetchesWhatIsTooLate(Decision):
         return order.status == Order.WAITING
 
 
-class FortySeconds(Decision):
-    """As in the lesson: whatever the way."""
-
-    def takes(self, order):
-        return 40.0
-
-
 class AsksOnlyOnce(Decision):
     """Whether an order can be made is asked when it begins, and never again."""
 
@@ -230,29 +223,11 @@ class Dithers(Decision):
         return seconds(order.deadline)
 
 
-class OldestFirst(Decision):
-    """First come, first served."""
-
-    def rank(self, order):
-        return order.id
-
-
 class StaysWithCanceled(Decision):
     """What it began is fetched, whatever has become of it."""
 
     def can_be_made(self, order):
         return order.id == self.begun or super().can_be_made(order)
-
-
-class OnlyChanges(Decision):
-    """Publishes when something has changed."""
-
-    last = None
-
-    def say(self, place):
-        if (self.state, place) != self.last:
-            self.last = self.state, place
-            super().say(place)
 
 
 class OnceASecond(Decision):
@@ -274,14 +249,6 @@ class SomeFrame(Decision):
 
     def say(self, place):
         super().say(PoseStamped(pose=place.pose))
-
-
-class SwapsPlaces(Decision):
-    """Goes to the delivery first."""
-
-    def say(self, place):
-        other = {order.pickup.pose.position.x: order.delivery for order in self.orders.values()}
-        super().say(other.get(place.pose.position.x, place))
 
 
 def main():
