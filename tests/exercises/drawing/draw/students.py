@@ -327,17 +327,6 @@ class ForgetsTheBend(Artist):
         return math.atan2(y, x), super().inverse(x, y)[1]
 
 
-class LengthsByHeart(Artist):
-    """Those of the lesson's arm."""
-
-    def read(self, msg):
-        self.upper, self.fore = 0.5, 0.4
-
-
-class JointsSwapped(Artist):
-    names = ("elbow_joint", "shoulder_joint")
-
-
 class MirroredAtTheAxis(Artist):
     def inverse(self, x, y):
         return super().inverse(x, -y)
@@ -369,11 +358,6 @@ class JumpsToTheFirstPoint(Artist):
         return super().time(index) if index else 0.0
 
 
-class HalfOfIt(Artist):
-    def places(self, figure):
-        return figure.points[: len(figure.points) // 2]
-
-
 class EveryEighthPoint(Artist):
     """Cuts the curves."""
 
@@ -384,16 +368,6 @@ class EveryEighthPoint(Artist):
 class NeverSends(Artist):
     def draw(self, figure):
         pass
-
-
-class StaysWhereItIs(Artist):
-    """Who doesn't move touches no table."""
-
-    def places(self, figure):
-        return figure.points[:2]
-
-    def inverse(self, x, y):
-        return 0.0, 0.0
 
 
 class OtherNames(Artist):
@@ -418,11 +392,6 @@ class HalfByGoals(OneGoalPerPoint):
         super().draw(figure)
 
 
-class MirroredByGoals(OneGoalPerPoint):
-    def inverse(self, x, y):
-        return super().inverse(x, -y)
-
-
 class HurriesByGoals(OneGoalPerPoint):
     """A goal for each point, and no time for any: 0.02 s, while the arm runs after them."""
 
@@ -431,30 +400,8 @@ class HurriesByGoals(OneGoalPerPoint):
             self.next(0.02)
 
 
-class DrawsWithTheElbow(Artist):
-    """Puts the elbow on the figure."""
-
-    def inverse(self, x, y):
-        return math.atan2(y, x), 0.0
-
-
-class ShoulderUnlimited(Artist):
-    """Adds a whole turn: the same direction, and beyond the joint's limit."""
-
-    def inverse(self, x, y):
-        shoulder, elbow = super().inverse(x, y)
-        return shoulder + math.tau, elbow
-
-
 class SendsNoNames(Artist):
     names = ()
-
-
-class Dawdles(Artist):
-    """Takes 20 s."""
-
-    def time(self, index):
-        return 3.0 + 0.5 * index
 
 
 class LiftsToTheMiddle(Artist):
