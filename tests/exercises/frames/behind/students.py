@@ -421,10 +421,6 @@ class RamsWhoStands(Follower):
         return super().goal(found)
 
 
-class HalfTheGap(Follower):
-    behind = 0.45
-
-
 class InFront(Follower):
     behind = -1.0
 
@@ -487,14 +483,6 @@ class OwnOdomForMap(Follower):
         self.drive(x - 1.0, y)
 
 
-class Degrees(Follower):
-    def drive(self, x, y):
-        command = Twist()
-        command.linear.x = 0.2
-        command.angular.z = max(-2.0, min(2.0, math.degrees(math.atan2(y, x))))
-        self.publisher.publish(command)
-
-
 class DrivesWithoutFrames(Follower):
     def __init__(self):
         Node.__init__(self, "follower")
@@ -509,54 +497,12 @@ class WithoutATry(Follower):
         self.drive(*self.goal(self.buffer.lookup_transform(self.own, self.leader, Time())))
 
 
-class PredictsTheLeader(Follower):
-    """Without news it drives on to where the leader would be by now."""
-
-    point, since = None, None
-
-    def is_old(self, header):
-        return False
-
-    def goal(self, found):
-        if super().is_old(found.header):
-            self.point = (self.point[0] + 0.02, self.point[1]) if self.point else (0.3, 0.0)
-            return self.point
-        self.point = super().goal(found)
-        return self.point
-
-
 class WaitsForTheLeader(Follower):
     """A callback that waits 10 s for a transform, which the same thread would have to receive."""
 
     def follow(self):
         found = self.buffer.lookup_transform(self.own, self.leader, self.get_clock().now(), Duration(seconds=10.0))
         self.drive(*self.goal(found))
-
-
-class AsksForNow(Follower):
-    """The transform of this very moment isn't there yet: the lookup always fails."""
-
-    def follow(self):
-        try:
-            self.drive(*self.goal(self.buffer.lookup_transform(self.own, self.leader, self.get_clock().now())))
-        except TransformException:
-            self.publisher.publish(Twist())
-
-
-class StopsForGood(Follower):
-    """One failure is enough: the transforms come a second later."""
-
-    failed = False
-
-    def follow(self):
-        try:
-            self.buffer.lookup_transform(self.own, self.leader, Time())
-        except TransformException:
-            self.failed = True
-        if self.failed:
-            self.publisher.publish(Twist())
-        else:
-            super().follow()
 
 
 class OnceIsEnough(Follower):
@@ -571,11 +517,3 @@ class OnceIsEnough(Follower):
             except TransformException:
                 return
         self.drive(*self.goal(self.found))
-
-
-class AnHourAgo(Follower):
-    """Takes a transform for new until it is 5 s old."""
-
-    def is_old(self, header):
-        return self.get_clock().now() - Time.from_msg(header.stamp) > Duration(seconds=5.0)
-

@@ -106,11 +106,6 @@ class WaitsInTheCallback(Patient):
             self.get_logger().info(str(error))
 
 
-class OnlyTheLast(Patient):
-    def on_message(self, msg):
-        self.waiting = [msg]
-
-
 class AgainAndAgain(Patient):
     def look(self):
         for msg in self.waiting:
