@@ -138,35 +138,14 @@ class AllTheTime(Watcher):
             self.publisher.publish(String(data=name))
 
 
-class OnlyOnce(Watcher):
-    """Never forgets that it was near."""
-
-    def look_at(self, name, position):
-        if self.margin(name, position) < 0.1 and name not in self.near:
-            self.near.add(name)
-            self.publisher.publish(String(data=name))
-
-
 class Volatile(Watcher):
     latched = 10
-
-
-class NearIsTwice(Watcher):
-    margin_to_speak = margin_to_forget = 0.4
 
 
 class WithoutAGap(Watcher):
     """Away where it is no longer near: at the margin the noise decides, in each message anew."""
 
     margin_to_forget = 0.1
-
-
-class BeyondIsAway(Watcher):
-    """At the limit itself the noise brings every other position beyond it."""
-
-    def margin(self, name, position):
-        margin = super().margin(name, position)
-        return margin if margin >= 0.0 else 1.0
 
 
 class OtherTopic(Watcher):
