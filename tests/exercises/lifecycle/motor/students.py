@@ -397,12 +397,6 @@ class ReadsInActivate(Motor):
         return super().on_activate(state)
 
 
-class ReadsInDrive(Motor):
-    def drive(self):
-        self.speed = self.read()
-        super().drive()
-
-
 class NoZeros(Motor):
     def on_deactivate(self, state):
         self.destroy_timer(self.timer)
@@ -612,52 +606,6 @@ class LoopsInActivate(Motor):
         self.running = False
 
 
-class SleepsBeforeItStops(Motor):
-    def on_deactivate(self, state):
-        time.sleep(1.0)
-        return super().on_deactivate(state)
-
-
-class OnlyOnce(Motor):
-    """The robot obeys its last command: one is enough, it thinks."""
-
-    def on_activate(self, state):
-        result = LifecycleNode.on_activate(self, state)
-        self.drive()
-        return result
-
-    def stop(self):
-        if self.commands is not None:
-            self.commands.publish(Twist())
-
-
-class ClampsTheSpeed(Motor):
-    def read(self):
-        return min(max(super().read(), 0.01), 0.5)
-
-
-class HalfAMeterIsTooFast(Motor):
-    def read(self):
-        speed = super().read()
-        return speed if speed < 0.5 else -1.0
-
-
-class ZeroIsASpeed(Motor):
-    def read(self):
-        return super().read() or 1e-9
-
-
-class StartsItself(Motor):
-    """Doesn't wait for the manager."""
-
-    def __init__(self):
-        LifecycleNode.__init__(self, "motor")
-        self.declare_parameter("speed", 0.2)
-        self.commands, self.timer = None, None
-        self.trigger_configure()
-        self.trigger_activate()
-
-
 class WithoutTheState(Motor):
     """A method that takes no state can't be called."""
 
@@ -677,17 +625,6 @@ class RaisesForAWrongSpeed(Motor):
         if not 0.0 < self.read() <= 0.5:
             raise ValueError("no speed for this motor")
         return super().on_configure(state)
-
-
-class FinalizedByAnError(Motor):
-    """Raises for a wrong speed, and on_error doesn't take it back."""
-
-    def on_configure(self, state):
-        result = super().on_configure(state)
-        return TransitionCallbackReturn.ERROR if result == FAILURE else result
-
-    def on_error(self, state):
-        return FAILURE
 
 
 class StopsWhenCleanedUp(Motor):
