@@ -165,15 +165,6 @@ class StopsAfterThree(Counter):
             self.timer.cancel()
 
 
-class StartsLate(Counter):
-    calls = 0
-
-    def tick(self):
-        self.calls += 1
-        if self.calls > 4:
-            super().tick()
-
-
 class UnevenTimers(Counter):
     def __init__(self):
         super().__init__()
@@ -208,15 +199,6 @@ class LoopsInInit(Node):
         for number in itertools.count(1):
             time.sleep(0.5)
             self.get_logger().info(f"Count: {number}")
-
-
-def main_that_sleeps(args=None):
-    rclpy.init(args=args)
-    node = Node("counter")
-    for number in itertools.count(1):
-        rclpy.spin_once(node, timeout_sec=0)
-        node.get_logger().info(f"Count: {number}")
-        time.sleep(0.5)
 
 
 def main_beside_asyncio(args=None):
