@@ -88,13 +88,6 @@ class NoLimit(Limiter):
         return requested
 
 
-class OnlyForwards(Limiter):
-    """Cut at the upper end only."""
-
-    def cut(self, requested, most):
-        return min(most, requested)
-
-
 class Jerks(Limiter):
     """Speeds at once."""
 
@@ -124,35 +117,11 @@ class BrakesGently(Limiter):
         return last + self.cut(self.cut(self.finite(requested), most) - last, step)
 
 
-class LetsNonsenseThrough(Limiter):
-    def finite(self, requested):
-        return requested
-
-
 class AsksForNanAndInf(Limiter):
     """There are two infinities."""
 
     def finite(self, requested):
         return 0.0 if math.isnan(requested) or requested == math.inf else requested
-
-
-class AsksForNan(Limiter):
-    """Infinite is more than the limit, and so becomes the limit."""
-
-    def finite(self, requested):
-        return 0.0 if math.isnan(requested) else requested
-
-
-class KeepsOnWithNonsense(Limiter):
-    """A bad request is left out, and what was sent last is sent again."""
-
-    def on_message(self, msg):
-        if math.isfinite(msg.linear.x) and math.isfinite(msg.angular.z):
-            super().on_message(msg)
-        else:
-            answer = Twist()
-            answer.linear.x, answer.angular.z = self.last
-            self.commands.publish(answer)
 
 
 class SaysNothingToNonsense(Limiter):
@@ -168,10 +137,3 @@ class OneStepOnly(Limiter):
 
     def next(self, requested, last, most, step):
         return super().next(requested, 0.0, most, step)
-
-
-class Stands(Limiter):
-    """Nothing can happen."""
-
-    def next(self, requested, last, most, step):
-        return 0.0
