@@ -105,12 +105,6 @@ class ArmedFromTheStart(Driver):
         self.armed = True
 
 
-class NeverDisarms(Driver):
-    def arm(self, request, response):
-        self.armed = True
-        return SetBool.Response(success=True, message="armed" if request.data else "disarmed")
-
-
 class Toggles(Driver):
     def arm(self, request, response):
         self.armed = not self.armed
@@ -149,10 +143,6 @@ class SuccessIsTheRequest(Driver):
         return response
 
 
-class TooSlow(Driver):
-    speed = 0.1
-
-
 class DrivesOnlyOnce(Driver):
     """One command in the service in place of one at each tick."""
 
@@ -163,11 +153,6 @@ class DrivesOnlyOnce(Driver):
 
     def drive(self):
         pass
-
-
-class IgnoresArmed(Driver):
-    def drive(self):
-        self.publisher.publish(Twist(linear=Vector3(x=0.3)))
 
 
 class DrivesInTheService(Driver):
@@ -189,14 +174,6 @@ class WordForBool(Driver):
         self.armed = request.data
         response.success = "yes"
         return response
-
-
-class LooksAtTheRequest(Driver):
-    """The request is not its data: it is always true."""
-
-    def arm(self, request, response):
-        self.armed = bool(request)
-        return SetBool.Response(success=True, message="armed" if self.armed else "disarmed")
 
 
 class NeverComesBack(Driver):
@@ -226,12 +203,6 @@ class LeavesTheStopToTheRobot(DriverThatStartsATimer):
 
     def stop(self):
         pass
-
-
-class ReportsNothing(Driver):
-    def arm(self, request, response):
-        self.armed = request.data
-        return response
 
 
 class PublishesNothing(Driver):

@@ -183,14 +183,6 @@ class SumInPlaceOfMean(Gyro):
         return response
 
 
-class SubtractsFromTheCorrected(Gyro):
-    """Calibrates with what it has corrected already: the second time it finds only what has changed."""
-
-    def on_message(self, msg):
-        self.readings.append(msg.data - self.bias)
-        self.publisher.publish(Float64(data=msg.data - self.bias))
-
-
 class NumberForMessage(Gyro):
     def calibrate(self, request, response):
         super().calibrate(request, response)
@@ -228,13 +220,3 @@ class OneReadingTooMany(Gyro):
             response.message = f"only {len(self.readings)} of 50 readings so far"
             return response
         return super().calibrate(request, response)
-
-
-class ReportsEveryBias(Gyro):
-    """The bias is one of the numbers in the message."""
-
-    def calibrate(self, request, response):
-        response = super().calibrate(request, response)
-        if response.success:
-            response.message = " ".join(f"{0.003 * number:.3f}" for number in range(-67, 68))
-        return response

@@ -248,14 +248,6 @@ class InfoForWarning(Visitor):
             self.get_logger().info(future.result().message)
 
 
-class WarnsWithoutTheMessage(Visitor):
-    def on_response(self, future):
-        if future.result().success:
-            super().on_response(future)
-        else:
-            self.get_logger().warning("The door is closed.")
-
-
 class AsksAgainAtOnce(Visitor):
     def on_response(self, future):
         super().on_response(future)
@@ -267,20 +259,6 @@ class GivesUp(Visitor):
     def on_response(self, future):
         super().on_response(future)
         self.timer.cancel()
-
-
-class NeverStopsAsking(Visitor):
-    def on_response(self, future):
-        if future.result().success:
-            self.speed = 0.3
-        else:
-            super().on_response(future)
-
-
-class StaysOutside(Visitor):
-    def on_response(self, future):
-        super().on_response(future)
-        self.speed = 0.0
 
 
 class ReceiveWithoutFuture(Visitor):

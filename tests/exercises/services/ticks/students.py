@@ -204,29 +204,12 @@ class SleepsInTheDoneCallback(Odometer):
         time.sleep(0.4)
 
 
-class TooRarely(WithDoneCallback):
-    period = 3.0
-
-
 class MisspeltService(WithDoneCallback):
     service = "/add_too_ints"
 
 
 class MisspeltTopic(WithDoneCallback):
     topic = "/tick/total"
-
-
-class HeartStopsFirst(WithDoneCallback):
-    """Without an answer it waits for the next tick; its heart beats only with an answer."""
-
-    def __init__(self):
-        super().__init__()
-        self.beats = self.heart
-        self.heart = self.create_publisher(Bool, "/unused", 10)
-
-    def say(self, answer):
-        super().say(answer)
-        self.beats.publish(Bool(data=True))
 
 
 class PublishesTheWholeAnswer(Awaiting):
@@ -246,12 +229,6 @@ def main_that_logs_that_it_waits(args=None):
     while not node.client.wait_for_service(timeout_sec=1.0):
         node.get_logger().info("Waiting for /add_two_ints")
     rclpy.spin(node)
-
-
-class AsksAllTheTime(WithDoneCallback):
-    """Five times a second: one of the questions is right."""
-
-    period = 0.2
 
 
 class PublishesEverySum(WithDoneCallback):
