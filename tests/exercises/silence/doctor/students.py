@@ -118,10 +118,6 @@ def main_without_a_class():
     rclpy.spin(node)
 
 
-class NamesOnly(Doctor):
-    fixes = False
-
-
 class TakesAnyDifference(Doctor):
     """Settings that differ may fit all the same."""
 
@@ -162,27 +158,6 @@ class ForgetsTheNamespace(Doctor):
         if near:
             self.set(display, "topic", near[0].rpartition("/")[2][:-1])
         return "name" if near else "missing"
-
-
-class ShorterDeadline(Doctor):
-    def compare(self, display, sensor):
-        if display.qos_profile.deadline < sensor.qos_profile.deadline:
-            self.set(display, "deadline", 0.1)
-            return "deadline"
-        return super().compare(display, sensor)
-
-
-class ImpossibleValues(Doctor):
-    """What it sets can't be, so the displays refuse it."""
-
-    def set(self, end, name, value):
-        wrong = {"reliability": "best effort", "durability": "VOLATILE", "deadline": -1.0, "topic": "/rosout"}
-        super().set(end, name, wrong.get(name, value))
-
-
-class NoTopicName(Doctor):
-    def set(self, end, name, value):
-        super().set(end, name, "no name" if name == "topic" else value)
 
 
 class SetsWhatIsSet(Doctor):

@@ -131,10 +131,6 @@ class AsksTooMuch(Driver):
     deadline = 0.05
 
 
-class AsksTooLittle(Driver):
-    deadline = 1.0
-
-
 class OnlyLogs(Driver):
     def too_late(self, event):
         self.get_logger().warning("The joystick is late")
@@ -151,16 +147,6 @@ class FallsSilentToo(Driver):
             super().repeat()
 
 
-class StopsTheSpeedOnly(Driver):
-    def too_late(self, event):
-        self.command.linear.x = 0.0
-
-
-class SlowsDown(Driver):
-    def too_late(self, event):
-        self.command.linear.x *= 0.9
-
-
 class NeverGoesOn(Driver):
     stopped = False
 
@@ -171,24 +157,6 @@ class NeverGoesOn(Driver):
     def on_message(self, msg):
         if not self.stopped:
             super().on_message(msg)
-
-
-class AlwaysStops(Driver):
-    def repeat(self):
-        self.publisher.publish(Twist())
-
-
-class OneMessageLate(Driver):
-    """Sends what came half a second ago."""
-
-    def __init__(self):
-        self.waiting = []
-        super().__init__()
-
-    def on_message(self, msg):
-        self.waiting.append(msg)
-        if len(self.waiting) > 10:
-            super().on_message(self.waiting.pop(0))
 
 
 class OwnDriver(Driver):

@@ -1,7 +1,6 @@
 """Nodes that count lost scans: right ones, and wrong ones named by their defect."""
 
 import rclpy
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from rclpy.time import Time
@@ -100,11 +99,6 @@ class ByArrival(Counter):
         return self.get_clock().now().nanoseconds / 1e9
 
 
-class RoundsDown(Counter):
-    def lost(self, gap, scan):
-        return int(gap / scan.scan_time) - 1
-
-
 class TenATime(Counter):
     """Believes that all lidars measure ten times a second."""
 
@@ -144,24 +138,6 @@ class LagsBehind(Counter):
     def lost(self, gap, scan):
         pending, self.pending = self.pending, super().lost(gap, scan)
         return pending
-
-
-class SaysItLater(Counter):
-    """Keeps the sum to itself for some seconds."""
-
-    def __init__(self):
-        super().__init__()
-        self.time = self.get_clock().now() + Duration(seconds=5)
-
-    def on_message(self, scan):
-        publisher, self.publisher = self.publisher, self
-        super().on_message(scan)
-        self.publisher = publisher
-        shown = self.missed if self.get_clock().now() > self.time else 0
-        publisher.publish(Int32(data=shown))
-
-    def publish(self, msg):
-        pass
 
 
 class SaysItATenthLater(Counter):
