@@ -115,19 +115,9 @@ class TooWarm(Thermometer):
         return random.uniform(20.0, 30.0)
 
 
-class Fahrenheit(Thermometer):
-    def read(self):
-        return random.uniform(68.0, 77.0)
-
-
 class NotANumber(Thermometer):
     def read(self):
         return math.nan
-
-
-class AlwaysTheSame(Thermometer):
-    def read(self):
-        return 22.0
 
 
 class NewEveryFourSeconds(Thermometer):
@@ -136,15 +126,6 @@ class NewEveryFourSeconds(Thermometer):
     def read(self):
         self.count += 1
         return 20.0 + self.count // 4
-
-
-class DrawnOnceInInit(Thermometer):
-    def __init__(self):
-        super().__init__()
-        self.value = random.uniform(20.0, 25.0)
-
-    def read(self):
-        return self.value
 
 
 class WholeNumber(Thermometer):
