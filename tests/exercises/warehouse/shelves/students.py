@@ -1,7 +1,6 @@
 """Nodes that wait for a database with asyncio: right ones, and wrong ones named by their defect."""
 
 import asyncio
-import random
 import threading
 import time
 
@@ -13,7 +12,7 @@ from std_msgs.msg import Empty, String
 from grader.exercises.warehouse import shelf_of
 
 PARTS = ("Shelves", "spinning", "in_event_loop", "AwaitsInTheCallback", "ForgetsAwait", "NewestLabel",
-         "CancelsTheLast", "OtherTopic", "NoLabels", "CopiesTheFormula")  # fmt: skip
+         "CancelsTheLast", "OtherTopic", "NoLabels")  # fmt: skip
 
 
 class Shelves(Node):
@@ -188,17 +187,6 @@ def sleeps_with_time():
 sleeps_long = in_event_loop(Shelves, pause=0.4)
 
 
-def spins_without_a_pause():
-    """Neither time nor another program gets its turn."""
-
-    async def spin(node):
-        while rclpy.ok():
-            rclpy.spin_once(node, timeout_sec=0.0)
-
-    rclpy.init()
-    asyncio.run(spin(Shelves()))
-
-
 busy_loop = in_event_loop(Shelves, pause=0)
 runs_in_the_callback = in_event_loop(RunsInTheCallback)
 
@@ -253,19 +241,3 @@ class NoLabels(Shelves):
 
 
 no_labels = in_event_loop(NoLabels)
-
-
-class CopiesTheFormula(Shelves):
-    """Knows how the database draws a shelf, but not the seed."""
-
-    def answer_later(self, label):
-        draw = random.Random(f"shelf 1 {label}")
-        seconds = round(random.Random(f"time 1 {label}").uniform(0.6, 1.4), 2)
-        shelf = f"{draw.choice('ABCDEFGH')}{draw.randint(1, 9)}"
-        timer = self.create_timer(seconds, lambda: (timer.cancel(), self.publish(label, shelf)))
-
-    def on_label(self, message):
-        self.answer_later(message.data)
-
-
-copies_the_formula = in_event_loop(CopiesTheFormula)
