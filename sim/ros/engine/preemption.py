@@ -74,6 +74,13 @@ class Observer:
 
 
 _observer: Observer | None = None
+_taking: set[Preemption] = set()  # those whose runs do something at a point: they have threads or a log
+
+
+def _set_point() -> None:
+    """Let the inserted calls do something only if a run needs it: most programs have one thread."""
+    # A function in C takes next to no time. Like `point` it returns None: see the lambdas in points.py.
+    builtins.__dict__[POINT] = point if _taking else set[int]().discard
 
 
 class Preemption:
@@ -97,7 +104,9 @@ class Preemption:
 
     def begin(self) -> None:
         """Give the functions their points."""
-        builtins.__dict__[POINT] = point
+        _set_point()
+        if self.log is not None:
+            self._take_points()
         for filename in {function.__code__.co_filename for function in self._own.functions}:
             linecache.checkcache(filename)
         self._add(self._own.functions)
@@ -107,6 +116,7 @@ class Preemption:
         """A program has a second thread from now on: from here on its preemptions matter."""
         if not self._threads:
             self._threads, self._modules = True, 0
+            self._take_points()
         self.add_imported()
 
     def add_imported(self) -> None:
@@ -117,6 +127,8 @@ class Preemption:
 
     def end(self, run: Scheduler) -> None:
         """Give the functions their own code again."""
+        _taking.discard(self)
+        _set_point()
         for function, code in self._originals:
             function.__code__ = code
         self._originals.clear()
@@ -125,6 +137,10 @@ class Preemption:
         if self.log is not None:
             self.log.finish(run)
             self._observer.log = self.log
+
+    def _take_points(self) -> None:
+        _taking.add(self)
+        _set_point()
 
     def _add(self, functions: Iterable[FunctionType]) -> None:
         for function in functions:
