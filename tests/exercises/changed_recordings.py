@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 from unittest import mock
 
@@ -90,18 +90,31 @@ def leaves(type_: str, depth: int = 0) -> Iterator[tuple[str, str]]:
             yield from ((f"{label}.{path}", kind) for path, kind in inner)
 
 
-def changed(recording: Recording, field: Field, value: Any, begin: float = 0.0) -> Recording:
-    """The recording with this value in a field of all that the student sent from a stamp on.
+def changes(
+    recording: Recording, field: Field, values: Iterable[Any], begin: float = 0.0
+) -> Iterator[Recording]:
+    """The recording with each of these values in a field of all that the student sent from a stamp on.
 
-    Of a list as a whole the value is how many of its items are left.
+    Of a list as a whole a value is how many of its items are left.
     """
+    # A message is decoded once for all values, if they take each other's place.
+    message_of = decode if field.type == "list" else cache(decode)
+    for value in values:
+        yield _changed(recording, field, value, begin, message_of)
 
+
+def _changed(
+    recording: Recording, field: Field, value: Any, begin: float, message_of: Callable[[str, bytes], Any]
+) -> Recording:
     def raw(message: Any) -> bytes:
         put(message, field.path, value, whole=field.type == "list")
         return encode(message)
 
+    def with_value(row: Message) -> Message:
+        return row._replace(raw=raw(message_of(row.type, row.raw)))
+
     if field.kind == "topic":
-        return _with_messages(recording, field.name, begin, lambda row: row._replace(raw=raw(row.message)))
+        return _with_messages(recording, field.name, begin, with_value)
     if field.kind in ("request", "response"):
         calls = [_changed_call(call, field, raw) for call in recording.calls]
         return replace(recording, calls=calls)
@@ -160,10 +173,14 @@ def other_values(field: Field) -> tuple[Any, ...]:
 
 
 def other_recordings(recording: Recording) -> Iterator[tuple[str, Recording]]:
-    """The recording with one field changed, less of what was sent, or other log lines; and what that is."""
+    """The recording with one field changed, less of what was sent, or other log lines; and what that is.
+
+    Fields of decimal numbers are left to `strange_numbers`.
+    """
     for field in fields_of(recording):
-        for value in other_values(field):
-            yield f"{field}: {value!r:.20}", changed(recording, field, value)
+        values = () if field.type in FLOATS else other_values(field)
+        for value, other in zip(values, changes(recording, field, values), strict=True):
+            yield f"{field}: {value!r:.20}", other
     for topic in {field.name for field in fields_of(recording) if field.kind == "topic"}:
         own = [row for row in recording.messages(topic) if not row.from_course]
         for what, left in (("no", []), ("the first", own[:1]), ("the last", own[-1:])):
@@ -204,11 +221,8 @@ def strange_numbers(exercise: Exercise, recordings: list[Recording]) -> Iterator
     """What a field earns with each of NO_NUMBERS and WRONG_NUMBERS, in all of a run and in half."""
     for field in sorted({field for run in recordings for field in fields_of(run) if field.type in FLOATS}):
         for part, when in (("", 0.0), (" from the middle on", 0.5)):
-            scores = [
-                score_of(exercise, [changed(run, field, value, when * run.stamp) for run in recordings])
-                for value in (*NO_NUMBERS, *WRONG_NUMBERS)
-            ]
-            yield f"{field}{part}", scores
+            runs = [changes(run, field, other_values(field), when * run.stamp) for run in recordings]
+            yield f"{field}{part}", [score_of(exercise, [*each]) for each in zip(*runs, strict=True)]
 
 
 def main(words: list[str]) -> None:

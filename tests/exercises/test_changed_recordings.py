@@ -12,7 +12,7 @@ from tests.exercises.chance import card_of
 from tests.exercises.changed_recordings import (
     NO_NUMBERS,
     Field,
-    changed,
+    changes,
     fields_of,
     other_recordings,
     score_of,
@@ -38,6 +38,7 @@ def test_nan_and_infinity_earn_no_more_than_a_wrong_number(assignment, name):
     for field, scores in strange_numbers(exercise, runs):
         strange, wrong = scores[: len(NO_NUMBERS)], scores[len(NO_NUMBERS) :]
         assert max(strange) <= max(wrong), field
+        assert [verdict.alarm for score in scores for verdict in score.broken] == [], field
 
 
 @pytest.mark.parametrize(("assignment", "name"), EXERCISES)
@@ -58,15 +59,18 @@ def test_a_field_is_changed_in_every_item_of_a_list_and_in_nothing_else():
     recording = published("/poses", [(0.0, poses(1.0, 2.0)), (1.0, poses(3.0))])
     field = Field("topic", "/poses", "poses[].position.x", "double")
     assert field in fields_of(recording)
-    rows = changed(recording, field, math.inf, begin=0.5).messages("/poses")
-    assert [[pose.position.x for pose in row.message.poses] for row in rows] == [[1.0, 2.0], [math.inf]]
-    assert rows[1].message.header.frame_id == "map"
+    for value, other in zip((math.inf, 5.0), changes(recording, field, (math.inf, 5.0), 0.5), strict=True):
+        rows = other.messages("/poses")
+        assert [[pose.position.x for pose in row.message.poses] for row in rows] == [[1.0, 2.0], [value]]
+        assert rows[1].message.header.frame_id == "map"
 
 
 def test_a_list_can_be_cut():
     recording = published("/poses", [(0.0, poses(1.0, 2.0))])
-    [row] = changed(recording, Field("topic", "/poses", "poses", "list"), -1).messages("/poses")
-    assert [pose.position.x for pose in row.message.poses] == [1.0]
+    poses_as_a_list = Field("topic", "/poses", "poses", "list")
+    for left, other in zip((0, -1), changes(recording, poses_as_a_list, (0, -1)), strict=True):
+        [row] = other.messages("/poses")
+        assert [pose.position.x for pose in row.message.poses] == [1.0, 2.0][:left]
 
 
 def test_a_check_that_nan_passes_is_found():

@@ -1,6 +1,7 @@
 """Checks that names use the standard terms, and that no class or module name stands for two things."""
 
 import ast
+import functools
 import re
 from collections import defaultdict
 from collections.abc import Iterator
@@ -53,35 +54,45 @@ SAME_MEANING = {
 }
 
 
+@functools.cache
 def words_of(name: str) -> list[str]:
     """The words of an identifier, in lower case: "send_goal", "GoalSender" and "HTTPServer" have two each."""
     return [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
 
 
-def names(source: str) -> Iterator[tuple[int, str]]:
-    """The line and name of every class, function, argument, attribute and global variable."""
-    tree = ast.parse(source)
-    bodies = [tree.body, *(node.body for node in ast.walk(tree) if isinstance(node, ast.ClassDef))]
-    for statement in (statement for body in bodies for statement in body):
-        if isinstance(statement, ast.Assign | ast.AnnAssign):
-            targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
-            stored = (node for target in targets for node in ast.walk(target) if isinstance(node, ast.Name))
-            yield from ((node.lineno, node.id) for node in stored)
-    for node in ast.walk(tree):
+@functools.cache
+def names(source: str) -> list[tuple[int, str, bool]]:
+    """The line and name of every class, function, argument, attribute and global variable.
+
+    The third item: whether it is a class.
+    """
+    found = []
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            yield node.lineno, node.name
+            found.append((node.lineno, node.name, isinstance(node, ast.ClassDef)))
         elif isinstance(node, ast.arg):
-            yield node.lineno, node.arg
+            found.append((node.lineno, node.arg, False))
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
-            yield node.lineno, node.attr
+            found.append((node.lineno, node.attr, False))
+        if isinstance(node, ast.Module | ast.ClassDef):
+            stored = (name for statement in node.body for name in assigned(statement))
+            found += [(name.lineno, name.id, False) for name in stored]
+    return found
+
+
+def assigned(statement: ast.stmt) -> Iterator[ast.Name]:
+    """The names in the targets of an assignment."""
+    if isinstance(statement, ast.Assign | ast.AnnAssign):
+        targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+        yield from (node for target in targets for node in ast.walk(target) if isinstance(node, ast.Name))
 
 
 def private_words(file: str, source: str) -> list[str]:
     """A sentence for each name of a module that has one of WORDS: where it is, and the standard terms."""
-    found = [(1, Path(file).parent.name if file.endswith("__init__.py") else Path(file).stem), *names(source)]
+    own = Path(file).parent.name if file.endswith("__init__.py") else Path(file).stem
     return [
         f"{file}:{line}: {name}: instead of {word!r} write {WORDS[word]}"
-        for line, name in sorted(set(found))
+        for line, name, _ in sorted({(1, own, False), *names(source)})
         for word in words_of(name)
         if word in WORDS
     ]
@@ -91,9 +102,9 @@ def repeated_classes(files: dict[str, str]) -> list[str]:
     """A sentence for each class name that is defined more than once; files are path to source."""
     places = defaultdict(list)
     for file, source in files.items():
-        for node in ast.walk(ast.parse(source)):
-            if isinstance(node, ast.ClassDef):
-                places[node.name].append(f"{file}:{node.lineno}")
+        for line, name, is_class in names(source):
+            if is_class:
+                places[name].append(f"{file}:{line}")
     return [
         f"{' and '.join(found)}: several classes are called {name}; name each by what it is"
         for name, found in sorted(places.items())
