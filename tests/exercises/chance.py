@@ -43,15 +43,22 @@ def card_of(topic: str, name: str) -> Card:
 def earned(exercise: Exercise, kind: str, program: object) -> Score:
     """The score of a program in a private world; in all of them where it may be lucky in one."""
     judge = exercise if kind == BY_LOT else first_run(exercise)
-    score = judge.judge(LocalPrograms(programs_of(program)), SECRET)
+    evidence = Evidence.of_adversaries(topic_of(exercise))
+    with mock.patch("sim.run", evidence.keeping(f"{exercise.name}-{kind}")):
+        score = judge.judge(LocalPrograms(programs_of(program)), SECRET)
     assert score.broken == []
     return score
+
+
+def topic_of(exercise: Exercise) -> str:
+    """The assignment of an exercise without its number."""
+    return exercise.checks[0].function.__module__.split(".")[2]
 
 
 def named_exercises(words: Sequence[str] = ()) -> Iterator[tuple[str, str, Exercise]]:
     """Each exercise with its topic and its name in its assignment; only those that are named, if any is."""
     for called, exercise in exercises().items():
-        topic = exercise.checks[0].function.__module__.split(".")[2]
+        topic = topic_of(exercise)
         names = vars(importlib.import_module(f"grader.exercises.{topic}")).items()
         if not words or called in words:
             yield topic, next(name for name, found in names if found is exercise), exercise

@@ -23,10 +23,11 @@ from sim import Recording
 
 ROOT = Path(__file__).parents[2]
 KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
-LEAST = 0.2  # s of computing: a run that takes less is not worth a file
+LEAST = 0.02  # s of computing: a run that takes less is not worth a file; to read one takes a fiftieth of it
 WHOLE = ("sim", "ros_packages", "requirements.lock")
 SHOW = "view", "standalone", "README.md", "TUTORIALS.md", "__pycache__"  # of sim: they only show recordings
 RUN = sorted({path.name for path in (ROOT / "sim").iterdir()} - {*SHOW})
+ADVERSARIES = "adversaries", "more_adversaries", "test_adversaries", "at_times", "cards", "changed_recordings"
 ENGINE = *WHOLE[1:], *(f"sim/{name}" for name in RUN)
 COURSE = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py")
 COURSE += "grader/orders.py", "grader/workspace"
@@ -62,10 +63,13 @@ class Evidence:
     @classmethod
     def of_nodes(cls, topic: str) -> Evidence:
         """The recordings of the students' nodes of an assignment."""
-        own = f"grader/exercises/{topic}", f"tests/exercises/{topic}", "tests/students/workspaces.py"
-        own += "tests/students/teams.py", "tests/bench/delivery"  # robots of several programs
-        own += ("tests/exercises/navigator/parts.py",)  # of two assignments
-        return cls(f"nodes-{topic}", *COURSE, *own)
+        return cls(f"nodes-{topic}", *COURSE, *_own(topic))
+
+    @classmethod
+    def of_adversaries(cls, topic: str) -> Evidence:
+        """The recordings of nodes that know the topics of an assignment's exercises and not the answers."""
+        modules = (f"tests/exercises/{name}.py" for name in ADVERSARIES)
+        return cls(f"adversaries-{topic}", *COURSE, *_own(topic), *modules)
 
     @classmethod
     def of_notebooks(cls, folder: str, assignment: str) -> Evidence:
@@ -100,6 +104,12 @@ class Evidence:
             return at_hand[name]
 
         return kept_or_made
+
+
+def _own(topic: str) -> tuple[str, ...]:
+    own = f"grader/exercises/{topic}", f"tests/exercises/{topic}", "tests/students/workspaces.py"
+    own += "tests/students/teams.py", "tests/bench/delivery"  # robots of several programs
+    return *own, "tests/exercises/navigator/parts.py"  # of two assignments
 
 
 def _typos(program: Any) -> str:

@@ -66,13 +66,25 @@ LAUNCH_LAYERS = (
 
 
 @functools.cache
+def import_statements(source: str) -> list[tuple[ast.Import | ast.ImportFrom, bool]]:
+    """The imports of a source at any level of nesting, and whether each is for annotations only."""
+    found, typing = [], set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            typing |= {id(inner) for inner in ast.walk(node)}
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            found.append(node)
+    return [(node, id(node) in typing) for node in found]
+
+
+@functools.cache
 def imports(source: str) -> tuple[str, ...]:
     """The full name of every module that the source imports, at any level of nesting."""
     found: list[str] = []
-    for node in ast.walk(ast.parse(source)):
+    for node, _ in import_statements(source):
         if isinstance(node, ast.Import):
             found += [name.name for name in node.names]
-        elif isinstance(node, ast.ImportFrom) and not node.level:
+        elif not node.level:
             found.append(node.module or "")
     return tuple(found)
 
@@ -125,27 +137,20 @@ def import_graph(files: dict[str, str], *, annotations: bool) -> dict[str, set[s
     """
     found: dict[str, set[str]] = {}
     for module, source in files.items():
-        tree = ast.parse(source)
-        typing = {
-            id(inner)
-            for node in ast.walk(tree)
-            if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
-            for inner in ast.walk(node)
-        }
         names = [
             name
-            for node in ast.walk(tree)
-            if annotations or id(node) not in typing
+            for node, for_annotations in import_statements(source)
+            if annotations or not for_annotations
             for name in _imported(node, files)
         ]
         found[module] = {name for name in names if name in files and name != module}
     return found
 
 
-def _imported(node: ast.AST, files: dict[str, str]) -> Iterator[str]:
+def _imported(node: ast.Import | ast.ImportFrom, files: dict[str, str]) -> Iterator[str]:
     if isinstance(node, ast.Import):
         yield from (name.name for name in node.names)
-    elif isinstance(node, ast.ImportFrom) and node.module:
+    elif node.module:
         for name in node.names:  # a module of a package, or a name in a module
             inner = f"{node.module}.{name.name}"
             yield inner if inner in files else node.module
