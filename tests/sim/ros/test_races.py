@@ -7,6 +7,8 @@ import sysconfig
 from pathlib import Path
 
 import pytest
+from rclpy.node import Node
+from std_msgs.msg import Int32
 
 from sim import explore, run
 from tests.students.races import (
@@ -246,3 +248,18 @@ def test_nothing_is_named_without_threads(load):
     module = load("without_threads", MAIN.replace("range(2)", "range(0)"))
     exec(HELPER, vars(module))
     assert explore(module.Counter, holds=lambda recording: True, orders=2, seconds=1).unseen == {}
+
+
+class Repeats(Node):
+    """Has one thread, and its work in a lambda."""
+
+    def __init__(self):
+        super().__init__("repeats")
+        publisher = self.create_publisher(Int32, "data", 10)
+        self.create_timer(0.5, lambda: publisher.publish(Int32(data=3)))
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_a_lambda_of_a_program_with_one_thread_does_its_work_in_every_order(order):
+    recording = run(Repeats, seconds=1.2, order=order, quiet=True)
+    assert [received.message.data for received in recording.messages("/data")] == [3, 3]
