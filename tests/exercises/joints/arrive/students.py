@@ -164,13 +164,6 @@ class LastFirst(Patient):
         return self.positions.pop()
 
 
-class NeverThere(Patient):
-    """Compares the position in degrees."""
-
-    def has_arrived(self, position, velocity):
-        return abs(math.degrees(position) - self.target) < 0.01
-
-
 class LeavesOneOut(Patient):
     def next(self):
         return self.positions.pop(0 if self.target is None else min(1, len(self.positions) - 1))
@@ -212,14 +205,6 @@ class ComparesForEquality(Patient):
 
     def has_arrived(self, position, velocity):
         return position == self.target
-
-
-class FirstOnly(Patient):
-    """Sends the first, and lets that be all: nothing comes too early."""
-
-    def watch(self, msg):
-        if self.target is None:
-            super().watch(msg)
 
 
 class LongEnoughForAll(Patient):
