@@ -206,17 +206,6 @@ class FirstVolts(Thermometer):
             super().receive(msg)
 
 
-class VoltsBefore(Thermometer):
-    """A queue that it takes one message from each time, and so always falls behind."""
-
-    waiting = ()
-
-    def receive(self, msg):
-        self.waiting = (*self.waiting, msg.data)
-        if len(self.waiting) > 1:
-            self.volts, *self.waiting = self.waiting
-
-
 class ForgetsTheGain(Thermometer):
     def gain(self):
         return 1.0
@@ -250,12 +239,6 @@ class FixedGain(Thermometer):
 
     def gain(self):
         return 25.0
-
-
-class NameWithATilde(Thermometer):
-    """The name ~gain was private in ROS 1. In ROS 2 each parameter belongs to its node."""
-
-    parameter = "~gain"
 
 
 class StampOfTheStart(Thermometer):
