@@ -29,8 +29,8 @@ PRELOAD = ("grader.marking.preload",)
 JUDGE_ENTRY = "grader.marking.judge.judge_process:main"
 JUDGE = ResourceLimits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
 SPARE_S = 120.0  # that a submission may take besides its notebooks
-BUILD_S = 660.0  # more for each package, including the start of its sandbox
-END_S = 30.0  # for a process that has closed its connection to end
+BUILD_S = 480.0  # more for each package, including the start of its sandbox
+END_S = 20.0  # for a process that has closed its connection to end
 TRIES = 2
 
 

@@ -25,7 +25,7 @@ class TimeLimits:
     notebook: for all its cells.
     """
 
-    start: float = 300.0  # 1 s on a machine that is not busy
+    start: float = 120.0  # 1 s on a machine that is not busy
     cell: float = 60.0
     test: float = 300.0  # the delivery robot takes one minute on an idle machine
     notebook: float = 600.0
