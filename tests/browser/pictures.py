@@ -107,9 +107,10 @@ class Picture:
 
     def wait_until(self, condition: str, argument: object = None) -> None:
         """Wait until a JavaScript function of the root and the argument gives true."""
-        self.page.wait_for_function(
+        root = self.root.element_handle()
+        root.owner_frame().wait_for_function(
             f"([root, argument]) => ({condition})(root, argument)",
-            arg=[self.root.element_handle(), argument],
+            arg=[root, argument],
             timeout=PATIENCE * 1000,
         )
 

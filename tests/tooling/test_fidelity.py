@@ -33,6 +33,10 @@ class TestNode(unittest.TestCase):
     def test_is_refused(self):
         EventsExecutor()
 
+    def test_is_refused_in_a_part(self):
+        with self.subTest("a part"):
+            EventsExecutor()
+
     def test_is_refused_in_a_thread(self):
         made = []
         thread = threading.Thread(target=lambda: made.append(EventsExecutor()))
@@ -106,13 +110,14 @@ def test_it_says_which_tests_pass_are_refused_or_differ(tmp_path):
     table, words = done.stdout.split("differs: ")
     assert table == """\
 file           tests  pass plainly  pass in a run  skipped  refused  differ
-test_small.py      6             5              2        0        2       1
-all                6             5              2        0        2       1
+test_small.py      7             6              2        0        3       1
+all                7             6              2        0        3       1
 """
     assert words == (
         "test/test_small.py::test_differs\n"
         "    AssertionError: a module of the course\n"
         f"refused: test/test_small.py::TestNode::test_is_refused\n    {REFUSED}"
+        f"refused: test/test_small.py::TestNode::test_is_refused_in_a_part\n    {REFUSED}"
         f"refused: test/test_small.py::TestNode::test_is_refused_in_a_thread\n    {REFUSED}"
     )
 
