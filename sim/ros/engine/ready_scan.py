@@ -10,6 +10,7 @@ from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
 from rclpy.subscription import Subscription
 
+from sim.distro import DISTRO
 from sim.evidence import SPUN
 from sim.ros.engine.awaits import waits_for_a_future
 from sim.ros.engine.callbacks import Work, state_of
@@ -28,6 +29,7 @@ from sim.ros.transport.service_transport import ServiceTransport
 RCLError = cpp.RCLError
 # What an event of the middleware counts: matched or incompatible endpoints.
 CHANGES = "total_count_change", "current_count_change", "alive_count_change", "not_alive_count_change"
+TASK_ORDER = -1 if DISTRO == "jazzy" else 1  # Jazzy's executors begin with the newest task
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 Entry = tuple[Callable[..., Work | None], Any, Any]  # what checks an entity, the entity, its node
@@ -72,7 +74,7 @@ class ReadyScan:
     def _ready_tasks(self) -> Iterator[Work]:
         executor, waiter = self.executor, self._waiter
         self._poll()
-        for task, entity, node in reversed(executor._tasks):
+        for task, entity, node in executor._tasks[::TASK_ORDER]:
             waits = state_of(task).seen_wakes == waiter.wakes or waits_for_a_future(task)
             if not (waits or task.executing() or task.done() or task.cancelled()):
                 yield Work("task", None, node, task, (), getattr(entity, "callback", None))
