@@ -26,7 +26,7 @@ def test_a_renamed_attribute_and_a_missing_error_are_named(tmp_path):
     executors.write_text(text + "\nNewError = _rclpy.NewError\n")
     done = later_rclpy(tmp_path)
     header, row, words = done.stdout.splitlines()
-    assert header.split() == "rclpy equal recordings missing in the compiled layer".split()
+    assert header.split() == ["rclpy", "equal", "recordings", "missing", "in", "the", "compiled", "layer"]
     release, none, of, scenarios, missing = row.split()
     assert (release, none, of, missing) == ("7.1.99", "0", "of", "NewError")
     assert int(scenarios) > 20
