@@ -28,7 +28,7 @@ from tests.patience import PATIENCE
 
 SECONDS = 600  # simulated ones that a test may take
 OPTIONS = ["-s", "-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:threadexception", "-W", "ignore"]
-# Plainly, an EventsExecutor waits for ever in these; a run refuses it.
+# Plainly, an EventsExecutor waits forever in these; a run refuses it.
 STUCK = "create_task_during_spin", "executor_add_node_wakes_executor"
 LEFT_OUT = [f"--deselect=test/test_executor.py::TestExecutor::test_{name}" for name in STUCK]
 OWN = f"{Path(__file__).parents[1] / 'sim'}{os.sep}"
