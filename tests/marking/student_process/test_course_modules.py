@@ -106,6 +106,8 @@ THERE = {
     "exercises.systems.audit.delays": ("read_delays _ticks", "reads what a student wrote"),
     "exercises.systems.audit.deliveries": ("question_of read_answers", "reads what a student wrote"),
     "exercises.localization.weigh.guesses": ("is_close", "needs the true pose"),
+    "exercises.localization.kidnapped.hall": ("trip twin _leg", "needs the private seed"),
+    "exercises.localization.kidnapped.log_score": ("log_score", "needs the true pose"),
     "diagnosis.activity": ("_times", "words of a hint"),
     "diagnosis.driving": ("VelocityCommand _command_text", "words of a hint"),
     "geometry.floor": ("away_from points_of", "given: lesson 13 has them, too"),

@@ -12,20 +12,22 @@ from grader.worlds.walled import walled
 from sim.evidence import Seconds
 from sim.world import Box, Circle, LidarModel, World
 
-CARRIED: Seconds = 20.0  # when someone carries the robot away
+CARRIED: tuple[Seconds, Seconds] = (19.0, 22.0)  # between these, someone carries the robot away
 # m. Slightly below whole cells with the margin of a map, which so is the same after half a turn, too.
 HALF_LENGTH, HALF_WIDTH = 6.505 - 1e-9, 1.305 - 1e-9
 RANGE = 2.3  # m, of the lidar
 ALIKE = 2.4  # m from the middle: up to there, no scan shows what is different at the ends
-LANDMARK = 5.3  # m from the middle
+COLUMNS, BOX = 5.05, 5.6  # m from the middle, at its two ends: neither fits a map of the other
 TURNAROUND = 4.7, 3.7  # m from the middle: between these the robot drives to and fro, once it is at an end
+PARKED = 0.05  # m, rad: so far off is what is known about the start
 SLIP = 0.005  # m: standard deviation of a wheel's distance after 1 m
 
 
 class Trip(NamedTuple):
     """A robot's start, the pose at which it is put down (x, y, yaw), and its routes from there (x, y).
 
-    middle: the point (x, y) around which the hall looks the same after half a turn.
+    middle: the point (x, y) around which the hall looks the same after half a turn. parked: about where the
+    start is (x, y, yaw). carried: when the robot is put down.
     """
 
     middle: tuple[float, float]
@@ -33,6 +35,8 @@ class Trip(NamedTuple):
     put_down: tuple[float, float, float]
     first: tuple[tuple[float, float], ...]
     then: tuple[tuple[float, float], ...]
+    parked: tuple[float, float, float]
+    carried: Seconds
 
 
 def twin(pose: Pose2D, middle: tuple[float, float]) -> Pose2D:
@@ -57,7 +61,8 @@ def trip(seed: int) -> Trip:
     middle = round(draw.uniform(-4, 4), 2), round(draw.uniform(-4, 4), 2)
     (start, first), (put_down, then) = _leg(draw, middle), _leg(draw, middle)
     lanes = [tuple((x, middle[1]) for x in one) for one in (first, then)]
-    return Trip(middle, start, put_down, *lanes)
+    parked = tuple(round(value + draw.uniform(-PARKED, PARKED), 3) for value in start)
+    return Trip(middle, start, put_down, lanes[0], lanes[1], parked, round(draw.uniform(*CARRIED), 1))
 
 
 @functools.lru_cache(maxsize=64)
@@ -82,11 +87,11 @@ def hall(seed: int) -> World:
 def carried_hall(seed: int) -> World:
     """Return the same hall, in which someone carries the robot away."""
     world, one = hall(seed), trip(seed)
-    return replace(world, robot=replace(world.robot, carried=((CARRIED, *one.put_down),)))
+    return replace(world, robot=replace(world.robot, carried=((one.carried, *one.put_down),)))
 
 
 def _furniture(draw: random.Random) -> tuple[list[Box], list[Circle]]:
-    """Boxes and columns around (0, 0): pairs that half a turn exchanges, and one of each near the ends."""
+    """Things around (0, 0): pairs that half a turn exchanges; a box at one end, two columns at the other."""
     boxes, circles = [], []
     for number, (low, high) in enumerate(((0.5, 1.1), (1.9, 2.5), (3.3, 3.9))):
         x, side = draw.uniform(low, high), draw.choice((-1.0, 1.0))
@@ -97,7 +102,6 @@ def _furniture(draw: random.Random) -> tuple[list[Box], list[Circle]]:
             wide, deep = draw.uniform(0.3, 0.7), draw.uniform(0.25, 0.45)
             y = side * (HALF_WIDTH - deep / 2)
             boxes += [Box(x, y, 0.0, wide, deep), Box(-x, -y, 0.0, wide, deep)]
-    side = draw.choice((-1.0, 1.0))
-    boxes.append(Box(LANDMARK, side * 0.85, 0.0, 0.5, 0.5))
-    circles.append(Circle(-LANDMARK, side * 0.85, 0.2))
+    boxes.append(Box(BOX, 0.0, 0.0, 0.5, 1.0))
+    circles += [Circle(-COLUMNS, y, 0.3) for y in (-0.85, 0.85)]
     return boxes, circles

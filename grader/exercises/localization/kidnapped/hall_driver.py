@@ -1,9 +1,10 @@
-"""The programs around a robot that doesn't know where it is: a map server and a driver with a route."""
+"""The programs around a robot that doesn't know where it is: a map, where it is parked, and a driver."""
 
 import math
 from typing import ClassVar
 
 import numpy as np
+from geometry_msgs.msg import PoseArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
@@ -11,16 +12,34 @@ from sensor_msgs.msg import LaserScan
 
 from grader.companions.blind_drivers import BlindDriver
 from grader.companions.drivers import Speeds
+from grader.companions.map_messages import posed
 from grader.companions.maps import MapServer, made_for
-from grader.exercises.localization.kidnapped.hall import CARRIED, Trip, carried_hall, hall, trip
+from grader.companions.qos import LATCHED
+from grader.exercises.localization.kidnapped.hall import Trip, carried_hall, hall, trip, twin
 from grader.exercises.localization.localize.scan_matcher import ScanMatcher, composed, relative
 from grader.geometry import Pose2D
-from sim.evidence import since_start
+from sim.evidence import Seconds, since_start
 from sim.world import World
 
 SPEED, TURN, AHEAD = 0.5, 1.5, 0.35  # m/s, rad/s, m
 NEAR = 0.15  # m from a corner of its route
 EVERY = 4  # scans
+PARKED: Seconds = 1.0  # so long it stands: by then everyone has its odometry
+
+
+class Parking(Node):
+    """Publishes once, latched, that the robot is parked at one of two places: PoseArray on /parking_poses."""
+
+    trip: ClassVar[Trip]
+
+    def __init__(self) -> None:
+        super().__init__("parking")
+        here = Pose2D(*self.trip.parked)
+        places = sorted([here, twin(here, self.trip.middle)])  # so that the order tells nothing
+        message = PoseArray(poses=[posed(*place) for place in places])
+        message.header.frame_id = "map"
+        self.publisher = self.create_publisher(PoseArray, "/parking_poses", LATCHED)
+        self.publisher.publish(message)
 
 
 class HallDriver(BlindDriver):
@@ -51,7 +70,7 @@ class HallDriver(BlindDriver):
 
     def on_scan(self, scan: LaserScan) -> None:
         """Correct the pose."""
-        if self.is_carried and since_start(scan.header.stamp) > CARRIED:
+        if self.is_carried and since_start(scan.header.stamp) > self.trip.carried:
             self.is_carried = False
             self.pose, self.route = Pose2D(*self.trip.put_down), list(self.trip.then)
         self.scans += 1
@@ -60,6 +79,8 @@ class HallDriver(BlindDriver):
 
     def command(self, now: float) -> Speeds:
         """Drive to the next corner of the route."""
+        if now < PARKED:
+            return 0.0, 0.0
         if math.dist(self.pose[:2], self.route[0]) < NEAR:
             self.route = self.route[1:]
         return towards(self.pose, self.route[0])
@@ -76,7 +97,7 @@ def towards(pose: Pose2D, corner: tuple[float, float]) -> Speeds:
 
 
 def wandering(seed: int) -> list[type[Node]]:
-    """Return the map server and the driver of a hall in which the robot is carried away, for a run."""
-    return [made_for(MapServer, world=hall(seed)),
-            made_for(HallDriver, world=carried_hall(seed), trip=trip(seed))]
-
+    """Return a run's programs: a map server, the parking, and the driver of a robot that is carried away."""
+    one = trip(seed)
+    return [made_for(MapServer, world=hall(seed)), made_for(Parking, trip=one),
+            made_for(HallDriver, world=carried_hall(seed), trip=one)]

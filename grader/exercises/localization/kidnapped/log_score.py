@@ -41,13 +41,16 @@ def log_score(poses: np.ndarray, weights: np.ndarray, truth: Pose2D) -> float:
     return math.log(density / EVERYWHERE)
 
 
-def log_scores(recording: Recording) -> list[LogScores]:
+def log_scores(recording: Recording, apart: Seconds = 0.0) -> list[LogScores]:
     """Return the scores of the clouds on /particle_cloud, in a run in `carried_hall`.
 
+    apart: a cloud that comes sooner after the last one with a score is left out.
     Raises ValueError for a cloud without particles, or whose weights don't have a positive sum.
     """
     middle, found = trip(recording.seed).middle, []
     for row in recording.messages("/particle_cloud"):
+        if found and row.stamp - found[-1].stamp < apart:
+            continue
         poses = np.array([pose_2d(item.pose) for item in row.message.particles]).reshape(-1, 3)
         weights = np.array([item.weight for item in row.message.particles])
         if not weights.sum() > 0:

@@ -103,6 +103,12 @@ def test_the_scores_of_a_run_are_those_at_the_robot_and_at_its_twin():
     assert last.here == pytest.approx(math.log(0.01))  # the robot has left
 
 
+def test_clouds_that_come_fast_are_not_all_scored():
+    recording = _run(Certain, [], 2.05)
+    assert len(localization.log_scores(recording)) == 20
+    assert [score.stamp for score in localization.log_scores(recording, apart=0.95)] == pytest.approx([0.1, 1.1])
+
+
 def test_a_cloud_without_weights_is_an_error():
     recording = _run(WithoutWeight, [], 0.5)
     with pytest.raises(ValueError, match=r"^the cloud at 0\.1 s has no particles with a weight$"):
