@@ -88,7 +88,7 @@ def _picks_one(run: Recording, mean: LogScores) -> bool:
 
 
 BOTH_PLACES = (
-    "All particles are around one of the two places, and no scan has told which one is right. Begin with "
+    "All particles are around one of the two places, and no scan has shown which one is right. Begin with "
     "half of them around each; resample only if few particles count, and with evenly spaced marks.")
 
 
