@@ -21,7 +21,7 @@ BUDGETS = {
     "grader/exercises": 21_800,
     "grader/marking": 17_500,
     "ros_packages": 11_100,
-    "tests": 118_900,
+    "tests": 119_000,
     "tests/exercises": 34_350,
     "tests/grader": 10_500,
     "tests/marking": 18_250,
