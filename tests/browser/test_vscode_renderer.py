@@ -18,7 +18,7 @@ from tests.browser.pictures import COUNT_FRAMES, Picture
 from tests.browser.test_play_in_lab import DRIVEN, ENDED, IMPORTS
 from tests.patience import PATIENCE, until
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.soak]  # npm loads packages
 PACKAGES = {"renderer": "@vscode/jupyter-ipywidgets8@1.0.9", "requirejs": "requirejs@2.3.7"}
 FILES = {"renderer": "dist/ipywidgets.js", "requirejs": "require.js"}
 EXTENSIONS = Path(sys.prefix, "share", "jupyter", "nbextensions")  # where VS Code looks for widgets
