@@ -7,7 +7,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MODULE, FUNCTION = 250, 50  # lines; most functions have under 35
-NOT_OURS = {"__pycache__", "node_modules"}
+LEFT_OUT = {"__pycache__", "node_modules"}
 # Lines of Python that a room may have. Who needs more raises the number, and says why in the commit.
 BUDGETS = {
     "sim": 35_400,
@@ -60,6 +60,6 @@ def test_what_is_too_long_is_found():
 
 @pytest.mark.parametrize("room", BUDGETS)
 def test_a_room_keeps_to_its_budget(room):
-    files = [file for file in sorted((ROOT / room).rglob("*.py")) if not NOT_OURS & set(file.parts)]
+    files = [file for file in sorted((ROOT / room).rglob("*.py")) if not LEFT_OUT & set(file.parts)]
     lines = sum(file.read_text(encoding="utf-8").count("\n") for file in files)
     assert lines <= BUDGETS[room], f"{room} has {lines} lines: remove some, or raise its budget and say why"
