@@ -116,7 +116,7 @@ def decides(run: Recording, scores: list[LogScores]) -> None:
     if not (mean.here >= HERE and mean.here - mean.there >= MARGIN):
         expected = (f"mean log scores of {HERE:g} or more at the robot, and {MARGIN:g} less at its twin, "
                     f"from {times.at_end + DECIDES:.3g} s on")
-        hint = ("At the end a quarter of the rays differ. Weigh by the scans there, too, and resample: are "
+        hint = ("At the end a third of the rays differ. Weigh by the scans there, too, and resample: are "
                 "some 20 rays used, and does a ray that fits nowhere still have a probability above 0?")
         raise Missed(expected, f"{mean.here:.1f} and {mean.there:.1f}", hint, picture="path")
 
