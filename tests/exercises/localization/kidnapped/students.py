@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from geometry_msgs.msg import Pose, PoseArray
+from geometry_msgs.msg import PoseArray
 from nav2_msgs.msg import Particle, ParticleCloud
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
@@ -11,38 +11,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool
 
-PARTS = "_yaw_of", "_pose_of", "_field_of", "_step"
+from tests.exercises.localization.poses import field_of, pose_of, step, yaw_of
+
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-def _yaw_of(turn):
-    return 2 * math.atan2(turn.z, turn.w)
-
-
-def _pose_of(x, y, yaw):
-    pose = Pose()
-    pose.position.x, pose.position.y = float(x), float(y)
-    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return pose
-
-
-def _field_of(cells, resolution, most=0.5):
-    field = np.full(cells.shape, most)
-    rows, columns = np.nonzero(cells == 100)
-    reach = math.ceil(most / resolution)
-    for up in range(-reach, reach + 1):
-        for right in range(-reach, reach + 1):
-            row, column = rows + up, columns + right
-            inside = (row >= 0) & (row < len(cells)) & (column >= 0) & (column < len(cells[0]))
-            there = row[inside], column[inside]
-            field[there] = np.minimum(field[there], math.hypot(up, right) * resolution)
-    return field
-
-
-def _step(a, b):
-    cos, sin = math.cos(a[2]), math.sin(a[2])
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    return cos * dx + sin * dy, cos * dy - sin * dx, math.remainder(b[2] - a[2], math.tau)
 
 
 class Kidnapped(Node):
@@ -67,10 +38,10 @@ class Kidnapped(Node):
         cells = np.array(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
         self.resolution = msg.info.resolution
         self.origin = np.array([msg.info.origin.position.x, msg.info.origin.position.y])
-        self.free, self.field = np.argwhere(cells == 0), _field_of(cells, self.resolution)
+        self.free, self.field = np.argwhere(cells == 0), field_of(cells, self.resolution)
 
     def on_parking(self, msg):
-        self.places = [(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses]
+        self.places = [(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses]
         self.begin(self.around(self.places))
 
     def around(self, places):
@@ -81,13 +52,13 @@ class Kidnapped(Node):
 
     def on_odom(self, msg):
         position = msg.pose.pose.position
-        self.odometry = position.x, position.y, _yaw_of(msg.pose.pose.orientation)
+        self.odometry = position.x, position.y, yaw_of(msg.pose.pose.orientation)
         self.before = self.before or self.odometry
 
     def on_scan(self, msg):
         if self.field is None or self.poses is None or self.odometry is None:
             return
-        self.move(*_step(self.before, self.odometry))
+        self.move(*step(self.before, self.odometry))
         self.before = self.odometry
         if self.has_moved():
             self.weighed_at = self.odometry
@@ -101,7 +72,7 @@ class Kidnapped(Node):
     def has_moved(self):
         if self.weighed_at is None:
             return True
-        forward, left, turn = _step(self.weighed_at, self.odometry)
+        forward, left, turn = step(self.weighed_at, self.odometry)
         return math.hypot(forward, left) > 0.1 or abs(turn) > 0.1
 
     def points(self, scan):
@@ -185,7 +156,7 @@ class Kidnapped(Node):
         cloud = ParticleCloud()
         cloud.header.frame_id, cloud.header.stamp = self.frame, stamp
         cloud.particles = [
-            Particle(pose=_pose_of(*pose), weight=float(weight)) for pose, weight in zip(*self.some(), strict=True)
+            Particle(pose=pose_of(*pose), weight=float(weight)) for pose, weight in zip(*self.some(), strict=True)
         ]
         self.clouds.publish(cloud)
 

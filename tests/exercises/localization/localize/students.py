@@ -22,12 +22,10 @@ from tf2_ros import (
     TransformListener,
 )
 
-PARTS = "_yaw_of", "_Frame"
+from tests.exercises.localization.poses import yaw_of
+
+PARTS = ("_Frame",)
 TOLERANCE = Duration(seconds=0.5)
-
-
-def _yaw_of(turn):
-    return 2 * math.atan2(turn.z, turn.w)
 
 
 class Localization(Node):
@@ -48,7 +46,7 @@ class Localization(Node):
     def on_pose(self, msg):
         self.report(msg)
         position = msg.pose.pose.position
-        pose = position.x, position.y, _yaw_of(msg.pose.pose.orientation)
+        pose = position.x, position.y, yaw_of(msg.pose.pose.orientation)
         self.send(self.product(pose, self.odometry(msg.header.stamp)), self.stamp(msg))
 
     def report(self, msg):
@@ -59,7 +57,7 @@ class Localization(Node):
             found = self.buffer.lookup_transform("odom", "base_link", stamp).transform
         except TransformException:
             found = self.buffer.lookup_transform("odom", "base_link", Time()).transform
-        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
+        return found.translation.x, found.translation.y, yaw_of(found.rotation)
 
     def product(self, pose, odometry):
         turn = pose[2] - odometry[2]
@@ -108,7 +106,7 @@ class InverseFromTf(Localization):
             found = self.buffer.lookup_transform("base_link", "odom", stamp).transform
         except TransformException:
             found = self.buffer.lookup_transform("base_link", "odom", Time()).transform
-        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
+        return found.translation.x, found.translation.y, yaw_of(found.rotation)
 
     def product(self, pose, back):
         cos, sin = math.cos(pose[2]), math.sin(pose[2])
@@ -126,7 +124,7 @@ class OdometryByHand(Localization):
 
     def on_odom(self, msg):
         pose = msg.pose.pose
-        here = pose.position.x, pose.position.y, _yaw_of(pose.orientation)
+        here = pose.position.x, pose.position.y, yaw_of(pose.orientation)
         self.history = [*self.history[-100:], (Time.from_msg(msg.header.stamp).nanoseconds, here)]
 
     def odometry(self, stamp):
@@ -187,8 +185,8 @@ class Awaits(Localization):
         stamp = Time.from_msg(msg.header.stamp)
         found = (await self.buffer.lookup_transform_async("odom", "base_link", stamp)).transform
         position = msg.pose.pose.position
-        pose = position.x, position.y, _yaw_of(msg.pose.pose.orientation)
-        odometry = found.translation.x, found.translation.y, _yaw_of(found.rotation)
+        pose = position.x, position.y, yaw_of(msg.pose.pose.orientation)
+        odometry = found.translation.x, found.translation.y, yaw_of(found.rotation)
         self.send(self.product(pose, odometry), self.stamp(msg))
 
 

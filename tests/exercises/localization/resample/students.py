@@ -5,26 +5,17 @@ import math
 import random
 
 import numpy as np
-from geometry_msgs.msg import PointStamped, Pose, PoseWithCovarianceStamped
+from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped
 from nav2_msgs.msg import Particle, ParticleCloud
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import Range
 
-PARTS = ("_Guess", "_pose_of", "_yaw_of")
+from tests.exercises.localization.poses import pose_of, yaw_of
+
+PARTS = ("_Guess",)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-def _yaw_of(turn):
-    return 2 * math.atan2(turn.z, turn.w)
-
-
-def _pose_of(x, y, yaw):
-    pose = Pose()
-    pose.position.x, pose.position.y = float(x), float(y)
-    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return pose
 
 
 class Cloud(Node):
@@ -48,7 +39,7 @@ class Cloud(Node):
         self.beacon = msg.point.x, msg.point.y
 
     def on_initialpose(self, msg):
-        position, yaw = msg.pose.pose.position, _yaw_of(msg.pose.pose.orientation)
+        position, yaw = msg.pose.pose.position, yaw_of(msg.pose.pose.orientation)
         covariance = np.reshape(msg.pose.covariance, (6, 6))[np.ix_((0, 1, 5), (0, 1, 5))]
         self.draw((position.x, position.y, yaw), covariance)
 
@@ -66,11 +57,11 @@ class Cloud(Node):
         cloud = ParticleCloud()
         cloud.header.frame_id, cloud.header.stamp = "map", self.get_clock().now().to_msg()
         pairs = zip(self.poses.tolist(), self.weights().tolist(), strict=True)
-        cloud.particles = [Particle(pose=_pose_of(*pose), weight=weight) for pose, weight in pairs]
+        cloud.particles = [Particle(pose=pose_of(*pose), weight=weight) for pose, weight in pairs]
         self.publisher.publish(cloud)
 
     def on_odom(self, msg):
-        position, yaw = msg.pose.pose.position, _yaw_of(msg.pose.pose.orientation)
+        position, yaw = msg.pose.pose.position, yaw_of(msg.pose.pose.orientation)
         before, self.odometry = self.odometry, (position.x, position.y, yaw)
         if before is not None and len(self.poses):
             self.move(before, self.odometry)

@@ -14,25 +14,9 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 from tf2_ros import Buffer, TransformListener
 
-PARTS = ("_field_of", "_yaw_of")
+from tests.exercises.localization.poses import field_of, yaw_of
+
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-def _yaw_of(turn):
-    return 2 * math.atan2(turn.z, turn.w)
-
-
-def _field_of(cells, resolution, most=0.5):
-    field = np.full(cells.shape, most)
-    rows, columns = np.nonzero(cells == 100)
-    reach = math.ceil(most / resolution)
-    for up in range(-reach, reach + 1):
-        for right in range(-reach, reach + 1):
-            row, column = rows + up, columns + right
-            inside = (row >= 0) & (row < len(cells)) & (column >= 0) & (column < len(cells[0]))
-            there = row[inside], column[inside]
-            field[there] = np.minimum(field[there], math.hypot(up, right) * resolution)
-    return field
 
 
 class Weigher(Node):
@@ -55,13 +39,13 @@ class Weigher(Node):
         cells = np.array(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
         self.resolution = msg.info.resolution
         self.origin = msg.info.origin.position.x, msg.info.origin.position.y
-        self.field = _field_of(cells, self.resolution, self.most)
+        self.field = field_of(cells, self.resolution, self.most)
 
     def on_scan(self, msg):
         self.scan = msg
 
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         particles = [
             Particle(pose=pose, weight=float(weight)) for pose, weight in zip(msg.poses, weights, strict=True)
@@ -70,7 +54,7 @@ class Weigher(Node):
 
     def mounting(self):
         found = self.buffer.lookup_transform("base_link", self.scan.header.frame_id, Time()).transform
-        return found.translation.x, found.translation.y, _yaw_of(found.rotation)
+        return found.translation.x, found.translation.y, yaw_of(found.rotation)
 
     def hits(self, ranges):
         return np.isfinite(ranges)
@@ -190,7 +174,7 @@ def main_with_static_frames():
     def on_static(msg):
         for one in msg.transforms:
             move = one.transform
-            mounted[one.child_frame_id] = move.translation.x, move.translation.y, _yaw_of(move.rotation)
+            mounted[one.child_frame_id] = move.translation.x, move.translation.y, yaw_of(move.rotation)
 
     helper.publisher = publisher
     node.create_subscription(TFMessage, "/tf_static", on_static, LATCHED)
@@ -318,7 +302,7 @@ class OnlyTheBest(Weigher):
     """Publishes the poses that count, the heaviest first."""
 
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         order = np.argsort(-weights)[:50]
         share = weights[order] / weights[order].sum()
@@ -329,7 +313,7 @@ class OnlyTheBest(Weigher):
 
 class Sorted(Weigher):
     def on_candidates(self, msg):
-        guesses = np.array([(one.position.x, one.position.y, _yaw_of(one.orientation)) for one in msg.poses])
+        guesses = np.array([(one.position.x, one.position.y, yaw_of(one.orientation)) for one in msg.poses])
         weights = self.weights(guesses)
         order = np.argsort(-weights)
         pairs = zip([msg.poses[int(one)] for one in order], weights[order], strict=True)
