@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import gc
 import math
 import sys
 import threading
@@ -169,6 +168,12 @@ class Session:
         with self._executing():
             self._close(ended)
 
+    def give_up(self) -> None:
+        """End the run because it can't be executed: not even to end its programs."""
+        if not self.over:
+            self.over = True
+            self._process.collect()
+
     @contextlib.contextmanager
     def _executing(self) -> Iterator[None]:
         """In this block, the state of the process is the run's."""
@@ -221,7 +226,7 @@ class Session:
         self._screen.close()
         self._interrupted = self.engine.guard.interrupted
         self.engine = self.truth = None  # they and rclpy's nodes are full of cycles
-        gc.collect()
+        self._process.collect()
 
 
 def _names_around(target: Any) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from tests.ports import free_port
 
 ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
+ASKED = 100  # ms; Playwright would ask with each frame, and a large notebook do nothing but answer
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
 SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # Lab may still hold one that a test before has closed
 START = ".ros2-course-start:not(.lm-mod-hidden)"  # the start page, as it shows
@@ -170,11 +171,15 @@ class Lab:
         self.page = page
         self.address = address
 
+    def wait(self, condition: str, arg: Any = None) -> None:
+        """Wait until this JavaScript is true."""
+        self.page.wait_for_function(condition, arg=arg, polling=ASKED)
+
     def open(self, notebook: str = "") -> None:
         """Load JupyterLab with a notebook, by its path, and await its kernel; or its start page."""
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
         self.page.goto(f"{self.address}/lab/workspaces/{workspace}" if notebook else self.address)
-        self.page.wait_for_function("window.jupyterapp")
+        self.wait("window.jupyterapp")
         if notebook:
             self.page.evaluate(OPEN, notebook)
             self.wait_for_kernel()
@@ -204,13 +209,13 @@ class Lab:
         """Wait until the notebook shows and its kernel is idle."""
         self.page.wait_for_selector(f"{SHOWN} .jp-Notebook .jp-Cell")
         self.page.evaluate(KERNEL_READY)
-        self.page.wait_for_function(KERNEL_IDLE)
+        self.wait(KERNEL_IDLE)
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
         self.command("notebook:run-all-cells")
-        self.page.wait_for_function(ALL_CELLS_DONE)
-        self.page.wait_for_function(ALL_OUTPUTS_DRAWN)
+        self.wait(ALL_CELLS_DONE)
+        self.wait(ALL_OUTPUTS_DRAWN)
 
     def run_cell(self, index: int, *, wait: bool = True) -> None:
         """Run a cell, and wait until the kernel is done with it."""
@@ -220,7 +225,7 @@ class Lab:
 
     def wait_for_cell(self, index: int) -> None:
         """Wait until a cell is done."""
-        self.page.wait_for_function(CELL_DONE, arg=index)
+        self.wait(CELL_DONE, arg=index)
 
     def cell(self, index: int) -> Locator:
         """Return a cell of the notebook, as it shows."""
@@ -245,7 +250,7 @@ class Lab:
     def save(self) -> None:
         """Save the notebook."""
         self.page.evaluate("window.notebook().context.save()")
-        self.page.wait_for_function("() => !window.notebook().context.model.dirty")
+        self.wait("() => !window.notebook().context.model.dirty")
 
     def command(self, name: str, **arguments: str) -> None:
         """Execute one of JupyterLab's commands, such as `docmanager:save`, and wait until it is done."""
@@ -281,7 +286,7 @@ class Lab:
         before = self.page.evaluate(BACKGROUND)
         self.command("apputils:change-theme", theme=name)
         # the style sheet comes after the name
-        self.page.wait_for_function(f"before => {BACKGROUND} !== before", arg=before)
+        self.wait(f"before => {BACKGROUND} !== before", arg=before)
 
     def shut_down(self) -> None:
         """Shut down all kernels of the server, so that what a test leaves playing ends here."""

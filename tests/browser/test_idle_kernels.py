@@ -64,9 +64,9 @@ def run_in_each(lab: Lab) -> None:
     """Run the first cell of each notebook, that of `idle` last."""
     for name in ("robot", "busy", "idle"):
         lab.turn_to(f"course/{name}.ipynb")
-        lab.page.wait_for_function(SHOWS, arg=name)
+        lab.wait(SHOWS, arg=name)
         run_by_keys(lab, 0)
-        lab.page.wait_for_function(CELL_RUNS) if name == "busy" else lab.wait_for_cell(0)
+        lab.wait(CELL_RUNS) if name == "busy" else lab.wait_for_cell(0)
 
 
 def run_by_keys(lab: Lab, index: int) -> None:
@@ -78,7 +78,7 @@ def run_by_keys(lab: Lab, index: int) -> None:
 def test_a_closed_notebooks_idle_kernel_ends_while_an_open_ones_stays(students_lab):
     run_in_each(students_lab)
     students_lab.turn_to("course/open.ipynb")
-    students_lab.page.wait_for_function(SHOWS, arg="open")
+    students_lab.wait(SHOWS, arg="open")
     run_by_keys(students_lab, 0)
     students_lab.wait_for_cell(0)
     students_lab.page.evaluate(CLOSE_OTHERS, "course/open.ipynb")

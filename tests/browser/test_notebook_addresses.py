@@ -26,4 +26,4 @@ def test_the_list_of_files_and_terminals_lead_to_lab(lab):
     for address in ("tree", "terminals/1"):
         lab.page.goto(f"{lab.address}/{address}")
         lab.page.wait_for_url("**/lab*")
-        lab.page.wait_for_function("window.jupyterapp")
+        lab.wait("window.jupyterapp")

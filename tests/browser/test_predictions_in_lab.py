@@ -95,4 +95,4 @@ def test_a_slider_shows_its_last_state_the_next_day_and_says_what_to_do(students
         before = "getComputedStyle(document.querySelector('.widget-interact'), '::before').content"
         assert lab.page.evaluate(before) == '"Run this cell again to move the sliders."'
         lab.run_cell(0)
-        lab.page.wait_for_function(f"() => {before} === 'none'")
+        lab.wait(f"() => {before} === 'none'")

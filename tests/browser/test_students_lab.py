@@ -45,7 +45,7 @@ def test_the_start_page_shows_what_was_run_since(lab, students_folder):
     lab.wait_for_kernel()
     lab.run_cell(1)
     way(lab, "Course").click()
-    lab.page.wait_for_function("() => document.querySelector('[aria-label^=\"1 of \"]')")
+    lab.wait("() => document.querySelector('[aria-label^=\"1 of \"]')")
     assert ring.get_attribute("aria-label").startswith("1 of ")
     lesson.write_bytes(before)
 

@@ -56,6 +56,11 @@ def is_long(exercise: Exercise) -> bool:
     return simulated(exercise) >= LONG
 
 
+def is_slow(exercise: Exercise) -> bool:
+    """Whether it takes long, or has a package: to build one takes 2 s."""
+    return is_long(exercise) or bool(exercise.package)
+
+
 def first_run(exercise: Exercise) -> Exercise:
     """The exercise with its first run only; whole where a check holds in some of its scenarios only."""
     if any(check.only for check in exercise.checks):
@@ -117,7 +122,7 @@ class Assignment:
         slow exercise one right one, and as few wrong ones as miss every sentence.
         """
         judge, right = cls.judge(exercise), cls.right(exercise)
-        slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
+        slow = is_slow(judge)
         shows = {
             name: set(SHOWN.findall(text) if slow else SHOWN_WITH_HINT.findall(text))
             for name, text in page(cls.topic(), exercise).items()

@@ -8,6 +8,7 @@ from grader.marking.judge.personal_release import personal_notebook
 from grader.marking.submission.plain_cells import cell_of
 from grader.marking.submission.sections import section_around
 from grader.variants import with_phrases
+from tests.exercises.assignment import is_slow
 from tests.exercises.seeds import exercise_of
 from tests.exercises.variants import (
     fallen_short,
@@ -29,6 +30,11 @@ FOLDERS = {  # and how many exercises with variants each has
 }
 SECRETS = 20  # `python -m tests.exercises.variants` tries 200
 ROWS = [(folder, name) for folder in folders() for name in varied(folder)]
+# Those whose answers are run: of what takes long only at night.
+RUN = [
+    pytest.param(*row, marks=[pytest.mark.soak] if is_slow(exercise_of(topic_of(row[0]), row[1])) else [])
+    for row in ROWS
+]
 
 
 def texts_of(checks: list[Check]) -> list[str]:
@@ -77,13 +83,13 @@ def test_a_starter_in_another_variant_is_one_as_nbgrader_would_release_it(folder
     assert sum(f".variant({number}).grade(" in cell.source for cell in own.cells) == 1
 
 
-@pytest.mark.parametrize(("folder", "name"), ROWS)
+@pytest.mark.parametrize(("folder", "name"), RUN)
 def test_a_model_answer_is_full_in_its_own_variant(folder, name):
     for number in telling(variants_of(exercise_of(topic_of(folder), name))):
         check_answer(folder, name, number)
 
 
-@pytest.mark.parametrize(("folder", "name"), ROWS)
+@pytest.mark.parametrize(("folder", "name"), RUN)
 def test_an_answer_that_is_copied_from_another_variant_loses_points(folder, name):
     first, second, *_ = telling(variants_of(exercise_of(topic_of(folder), name)))
     check_copies(folder, name, first, [second])

@@ -77,33 +77,50 @@ class ProcessState:
     """Hides from the nodes what a process of their own would not have.
 
     A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line arguments and
-    a stdin of its own. And its heap is large: one full garbage collection takes 0.2 s. So the collector sees
-    only what the run creates, and runs less often: most of that is recorded, and stays.
+    a stdin of its own. And its heap is large: one full garbage collection takes 0.2 s. So from the first step
+    of a run to its end the collector sees only what was created meanwhile, and runs less often: most of that
+    is recorded, and stays.
     """
 
     NEW_OBJECTS = 3_000  # until the collector runs
+    unfinished = 0  # runs that have begun and not ended: while a player waits, other runs may begin and end
 
     def __init__(self) -> None:
         self._policy = FiberEventLoops()
+        self._begun = False
 
     @contextlib.contextmanager
     def borrowed(self) -> Iterator[None]:
         """Hide it in this block."""
+        self._begin()
         loop, policy = asyncio._get_running_loop(), asyncio.get_event_loop_policy()
         argv, stdin = sys.argv, sys.stdin
         asyncio._set_running_loop(None)
         asyncio.set_event_loop_policy(self._policy)
         usual = gc.get_threshold()
-        gc.freeze()
         gc.set_threshold(usual[0] and max(self.NEW_OBJECTS, usual[0]), *usual[1:])
         try:
             yield
         finally:
             gc.set_threshold(*usual)
-            gc.unfreeze()
             asyncio.set_event_loop_policy(policy)
             asyncio._set_running_loop(loop)
             sys.argv, sys.stdin = argv, stdin
+
+    def _begin(self) -> None:
+        if not self._begun:
+            self._begun = True
+            if not ProcessState.unfinished:
+                gc.freeze()
+            ProcessState.unfinished += 1
+
+    def collect(self) -> None:
+        """Free what the run has left: it has ended."""
+        gc.collect()
+        self._begun = False
+        ProcessState.unfinished -= 1
+        if not ProcessState.unfinished:
+            gc.unfreeze()
 
 
 class RclpyState:

@@ -6,7 +6,6 @@ import asyncio
 import atexit
 import contextlib
 import contextvars
-import gc
 import math
 from collections import deque
 from collections.abc import Callable, Generator
@@ -198,7 +197,8 @@ class Player:
         try:
             self.stamp = max(self.stamp, self._context.run(self._session.advance, limit, enough))
         except Exception as error:
-            self._error, self._session.over = error, True
+            self._error = error
+            self._session.give_up()
             detail = f"`until` raised {type(error).__name__}: {error}"
             self.recording.ended = Ended("interrupted", self._session.stamp, detail)
         finally:
@@ -230,7 +230,6 @@ class Player:
             atexit.unregister(self._stop_at_exit)
             # In the caller's context: tools that execute notebooks receive output of the current cell only.
             self._updater.finish(self.recording)
-            gc.collect()  # free what earlier frames have left
 
     def _execute(self, command: dict[str, Any]) -> None:
         match command:

@@ -11,6 +11,7 @@ import pytest
 from geometry_msgs.msg import Twist
 
 from sim import Process, Teleop, World, play, run
+from sim.ros.engine.process_state import ProcessState
 from sim.ros.engine.running_program import RunningProgram
 from sim.ros.fibers.scheduler import active
 from sim.ros.play.teleop import RATE
@@ -373,6 +374,21 @@ def test_fifty_plays_leave_nothing():
     some(50)
     assert live_nodes() == nodes
     assert nothing_is_left(before)
+
+
+def test_while_it_plays_the_garbage_collector_leaves_the_users_objects_alone():
+    """And those that other runs meanwhile create are collected; at its end all are the collector's again."""
+    assert ProcessState.unfinished == 0, "a test before has left a player that waits"
+    nodes, made = live_nodes(), playing.player(mains.Counter, seconds=600)
+    frames(made, 2)
+    aside, playing_nodes = gc.get_freeze_count(), live_nodes()
+    run(mains.classic, seconds=1, quiet=True)
+    assert live_nodes() == playing_nodes
+    assert gc.get_freeze_count() > 0.9 * aside > 9_000
+    frames(made, 2)
+    made.stop()
+    assert gc.get_freeze_count() == 0
+    assert live_nodes() == nodes
 
 
 # -- driving by hand -------------------------------------------------------------------------------------

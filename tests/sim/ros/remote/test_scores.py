@@ -1,7 +1,8 @@
 """Nodes in another process get the same score pages as in one process.
 
-A right one of each exercise every day, for that is how a class is marked; a wrong one of short exercises
-every day, and of the others at night. `python -m tests.sim.ros.remote.tables` compares all.
+A right one and a wrong one of short exercises every day, and of the others at night: most of their model
+answers are marked so each day by tests/marking/test_solutions.py. `python -m tests.sim.ros.remote.tables`
+compares all.
 """
 
 import pytest
@@ -15,7 +16,7 @@ def rows(pairs):
     return [pytest.param(*pair, marks=[pytest.mark.soak] if is_long(judge(*pair)) else []) for pair in pairs]
 
 
-@pytest.mark.parametrize(("assignment", "exercise"), exercises())
+@pytest.mark.parametrize(("assignment", "exercise"), rows(exercises()))
 def test_a_right_node_earns_everything_with_private_seeds(follower, assignment, exercise):
     name = right(assignment, exercise)[0]
     most = judge(assignment, exercise).points
