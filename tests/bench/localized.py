@@ -54,6 +54,7 @@ def programs() -> tuple[Callable[[], None], Callable[[], None]]:
     import localizer
     import whole
 
+    whole.MARGIN = 0.2  # m, as in the lesson: the pose is a few centimeters off
     return localizer.main, whole.main
 
 
@@ -117,7 +118,7 @@ def main() -> int:
         ],
     )
     reached = sum(not outcome.fault for outcome in outcomes)
-    touched = sum(outcome.fault.startswith("touched") for outcome in outcomes)
+    touched = sum(" touched at " in outcome.fault for outcome in outcomes)
     print(f"reached without a contact: {reached} of {given.worlds} worlds; touched something: {touched}")
     return int(reached < 0.95 * given.worlds)
 

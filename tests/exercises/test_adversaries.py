@@ -7,7 +7,7 @@ import pytest
 
 from grader.catalog import exercises
 from tests.exercises.adversaries import KINDS, adversary
-from tests.exercises.assignment import Assignment, is_long
+from tests.exercises.assignment import Assignment, is_slow
 from tests.exercises.at_times import spun_until
 from tests.exercises.chance import BY_LOT, card_of, earned, for_being_there
 from tests.exercises.more_adversaries import LISTENS_ONCE, MORE_KINDS, hollow, more_adversary
@@ -73,7 +73,7 @@ def rows(kinds):
             name,
             kind,
             id=f"{assignment.topic()}-{name}-{kind.replace(' ', '_')}",
-            marks=[pytest.mark.soak] if is_long(assignment.judge(name)) else [],
+            marks=[pytest.mark.soak] if is_slow(assignment.judge(name)) else [],
         )
         for assignment, name in ALL
         for kind in kinds
