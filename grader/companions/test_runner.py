@@ -57,7 +57,7 @@ class _Tester:
         rclpy.init(context=context)
         node, waiting = Node("tester", context=context), []
         verdicts = node.create_publisher(String, VERDICTS, 100)
-        node.create_subscription(String, CANDIDATES, lambda msg: waiting.append(msg.data), latched)
+        node.create_subscription(String, CANDIDATES, lambda msg: waiting.append(msg.data), latched)  # type: ignore[attr-defined]
         begin = node.get_clock().now().nanoseconds
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(node)

@@ -143,7 +143,8 @@ def _fills(method: Function) -> bool:
     for part in ast.walk(method):
         if isinstance(part, ast.Call) and part.keywords and getattr(part.func, "attr", "") == "Response":
             return True
-        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
-        if stored and isinstance(part.value, ast.Name) and part.value.id in arguments:
+        if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
+            continue
+        if isinstance(part.value, ast.Name) and part.value.id in arguments:
             return True
     return False

@@ -89,7 +89,7 @@ def assignments(part: ast.AST) -> Iterator[tuple[ast.AST, ast.AST | None]]:
             for target in statement.targets:
                 if isinstance(target, ast.Tuple):
                     same = isinstance(statement.value, ast.Tuple) and len(statement.value.elts)
-                    values = statement.value.elts if same == len(target.elts) else [None] * len(target.elts)
+                    values = statement.value.elts if same == len(target.elts) else [None] * len(target.elts)  # type: ignore[attr-defined]
                     yield from zip(target.elts, values, strict=True)
                 else:
                     yield target, statement.value

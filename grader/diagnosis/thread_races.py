@@ -85,7 +85,7 @@ def _others(node: StudentNode, name: str) -> list[str]:
         entry
         for entry in _entries(node)
         if any(
-            own_attribute(target) == name and isinstance(target.ctx, ast.Store)
+            own_attribute(target) == name and isinstance(target.ctx, ast.Store)  # type: ignore[attr-defined]
             for part in reached(entry, node.methods)
             for target in ast.walk(part)
         )
@@ -111,7 +111,7 @@ def _thread_targets(functions: list[Any], methods: Methods) -> Iterator[str]:
         for call in ast.walk(function):
             called = getattr(call, "func", None)
             if getattr(called, "attr", getattr(called, "id", "")) in _STARTS:
-                values = (*call.args, *(keyword.value for keyword in call.keywords))
+                values = (*call.args, *(keyword.value for keyword in call.keywords))  # type: ignore[attr-defined]
                 yield from (value.attr for value in values if getattr(value, "attr", "") in methods)
 
 

@@ -64,7 +64,7 @@ def callback_names(methods: Methods) -> list[str]:
         called = {id(node.func) for node in ast.walk(method) if isinstance(node, ast.Call)}
         for node in ast.walk(method):
             name = own_attribute(node)
-            if name in plain and id(node) not in called and isinstance(node.ctx, ast.Load):
+            if name in plain and id(node) not in called and isinstance(getattr(node, "ctx", None), ast.Load):
                 found[name] = None
     return list(found)
 
@@ -105,15 +105,16 @@ def assigned_names(class_: type, methods: Methods) -> frozenset[str]:
         name
         for method in methods.values()
         for node in ast.walk(method)
-        if (name := own_attribute(node)) and isinstance(node.ctx, ast.Store)
+        if (name := own_attribute(node)) and isinstance(getattr(node, "ctx", None), ast.Store)
     }
     return frozenset((values | names) - methods.keys())
 
 
 def own_attribute(node: ast.AST) -> str:
     """The name in `self.name`; "" for any other expression."""
-    own = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self"
-    return node.attr if own else ""
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self":
+        return node.attr
+    return ""
 
 
 def reads(parts: Iterable[ast.AST]) -> Iterator[str]:
@@ -121,7 +122,7 @@ def reads(parts: Iterable[ast.AST]) -> Iterator[str]:
     for part in parts:
         for node in at_once(part):
             name = own_attribute(node)
-            if name and isinstance(node.ctx, ast.Load):
+            if name and isinstance(getattr(node, "ctx", None), ast.Load):
                 yield name
             elif isinstance(node, ast.AugAssign):
                 yield own_attribute(node.target)

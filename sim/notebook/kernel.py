@@ -31,7 +31,7 @@ _scripts = SharedScripts()
 def interrupt_error() -> KeyboardInterrupt:
     """The exception of a run that the user interrupted. A notebook shows it in one line."""
     error = KeyboardInterrupt("The run was interrupted.")
-    error._render_traceback_ = lambda: [f"KeyboardInterrupt: {error}"]
+    error._render_traceback_ = lambda: [f"KeyboardInterrupt: {error}"]  # type: ignore[attr-defined]
     return error
 
 
@@ -136,9 +136,9 @@ def show_error(
     if hint and hint not in getattr(error, "__notes__", ()):
         error.add_note(hint)
     is_name_error = isinstance(error, NameError)
-    sentence = explain_missing_name(error.name) if is_name_error else _interruption(error, trace)
+    sentence = explain_missing_name(error.name) if is_name_error else _interruption(error, trace)  # type: ignore[attr-defined]
     if sentence:
-        error._render_traceback_ = lambda: [f"{kind.__name__}: {sentence}"]
+        error._render_traceback_ = lambda: [f"{kind.__name__}: {sentence}"]  # type: ignore[attr-defined]
     ipython.showtraceback((kind, error, trace), tb_offset=tb_offset, running_compiled_code=True)
 
 

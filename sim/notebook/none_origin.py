@@ -45,8 +45,9 @@ def none_origin(error: BaseException, is_library: Callable[[str], bool]) -> str:
 
 def _sentence(call: ast.Call, frame: FrameType, is_library: Callable[[str], bool]) -> str:
     name = ast.unparse(call.func)
+    changes = isinstance(call.func, ast.Attribute) and call.func.attr in _CHANGES
     owner = _value(call.func.value, frame) if isinstance(call.func, ast.Attribute) else None
-    if type(owner) in _CONTAINERS and call.func.attr in _CHANGES:
+    if changes and type(owner) in _CONTAINERS:
         return f"`{name}` changes the {type(owner).__name__} itself and returns None."
     function = _value(call.func, frame)
     code = getattr(inspect.unwrap(function) if callable(function) else None, "__code__", None)

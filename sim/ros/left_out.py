@@ -32,7 +32,7 @@ def left_out(package: str) -> Callable[[], None]:
             threading.Event().wait()
 
     main.__name__ = package
-    main.bundled = True
+    main.bundled = True  # type: ignore[attr-defined]
     return main
 
 

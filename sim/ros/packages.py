@@ -45,7 +45,7 @@ def executable(package: str, name: str) -> Callable[[], None]:
         _start(file)
 
     main.__name__ = main.__qualname__ = name
-    main.bundled = bundled is not None
+    main.bundled = bundled is not None  # type: ignore[attr-defined]
     return main
 
 

@@ -15,7 +15,7 @@ def register_magic() -> None:
     """Register %ros2 if this is a notebook. The commands are imported when it is used."""
     shell = getattr(builtins, "get_ipython", lambda: None)()
     if shell is not None:
-        _ros2._ipython_magic_no_var_expand = True  # braces are YAML's, not Python's
+        _ros2._ipython_magic_no_var_expand = True  # type: ignore[attr-defined]  # braces are YAML's, not Python's
         shell.register_magic_function(_ros2, magic_kind="line", magic_name="ros2")
         shell.Completer.custom_matchers.append(_complete)
 

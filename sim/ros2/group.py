@@ -77,7 +77,7 @@ class UsageError(CliError):
 class Parser(argparse.ArgumentParser):
     """Raises an exception where argparse exits, and suggests the correct argument for a misspelt one."""
 
-    def parse_args(self, *arguments: Any) -> argparse.Namespace:  # type: ignore[override]
+    def parse_args(self, *arguments: Any) -> argparse.Namespace:
         """Work like `ArgumentParser.parse_args`; name what the official command has and this one lacks."""
         options, unknown = self.parse_known_args(*arguments)
         words = f"{options.command or ''} {getattr(options, 'verb', None) or ''}".strip()

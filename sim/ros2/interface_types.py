@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ament_index_python import get_resource, get_resources
 from ament_index_python.resources import has_resource
 
@@ -41,7 +43,7 @@ def installed_type(name: str) -> str:
     return name
 
 
-def type_class(name: str, kind: str, failed: str) -> type:
+def type_class(name: str, kind: str, failed: str) -> type[Any]:
     """The class of a type; its name may omit the kind. Raises CliError, whose text begins with `failed`."""
     parts = name.split("/")
     full = f"{parts[0]}/{kind}/{parts[1]}" if len(parts) == 2 else name

@@ -212,7 +212,7 @@ class TypedSession:
                 _report_failure(line)
             return None
 
-        ros2.bundled, terminal.line, terminal.lasts = True, line.number, (*words, "")[1] in OF_PROGRAMS
+        ros2.bundled, terminal.line, terminal.lasts = True, line.number, (*words, "")[1] in OF_PROGRAMS  # type: ignore[attr-defined]
         terminal.program = self._run.start(replace(spec, target=ros2, arguments=()))
 
     def _require_domain(self, terminal: Terminal, words: list[str]) -> None:

@@ -93,7 +93,7 @@ class _FrameRenderer:
         note_failure(figure, recording)
         figure.set_dpi(figure.dpi * SMOOTH * 0.75)
         figure.canvas.draw()
-        self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+        self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")  # type: ignore[attr-defined]
         self.scale = float(np.ptp(self.axes.transData.transform([(0.0, 0.0), (1.0, 0.0)])[:, 0]))
         self.bodies, self.drawing = recording.bodies, recording.drawing
         self.tracks = body_tracks(recording)

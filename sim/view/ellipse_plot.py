@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.patches import Ellipse
@@ -54,7 +55,7 @@ def ellipse(x: float, y: float, spread: np.ndarray) -> Ellipse:
     return Ellipse((x, y), width, height, angle=turn, facecolor=CAUTION, alpha=0.3, edgecolor=CAUTION)
 
 
-def _in_map(recording: Recording, message: object) -> tuple[float, float, np.ndarray]:
+def _in_map(recording: Recording, message: Any) -> tuple[float, float, np.ndarray]:
     """Position (m) of a message, and the covariance of x and y (m²), in the map frame."""
     place = message.pose.pose.position
     spread = np.reshape(message.pose.covariance, (6, 6))[:2, :2]

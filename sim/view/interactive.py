@@ -7,6 +7,7 @@ import functools
 import html
 import json
 from importlib.metadata import distribution
+from pathlib import Path
 from typing import Any
 
 from sim.notebook import shared_scripts
@@ -34,7 +35,7 @@ def plot_source() -> str:
 
 def _vendored(name: str) -> str:
     path = distribution(_UPLOT).locate_file(f"youplot/vendor/{name}")
-    return path.read_text(encoding="utf-8")
+    return Path(str(path)).read_text(encoding="utf-8")
 
 
 def plot_html(data: dict[str, Any], picture: bytes, description: str, *, shared: bool = False) -> str:

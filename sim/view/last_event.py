@@ -22,7 +22,7 @@ def last_event(recording: Recording) -> float:
 def _moments(recording: Recording) -> Iterator[float]:
     yield from (_last_motion(track) for track in body_tracks(recording) if track)
     for rows in (recording.contacts, recording.errors, recording.logs, *recording.other_contacts.values()):
-        yield from (row.stamp for row in rows)
+        yield from (row.stamp for row in rows)  # type: ignore[attr-defined]
     for call in recording.calls_of():
         yield from (stamp for stamp in (call.requested, call.taken, call.answered) if stamp is not None)
     for goal in recording.goals:

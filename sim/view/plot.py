@@ -112,7 +112,7 @@ def png(figure: Figure) -> bytes:
 def small_png(figure: Plot) -> bytes:
     """The figure as a PNG with few colors, a quarter of the size."""
     figure.canvas.draw()
-    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")  # type: ignore[attr-defined]
     buffer = io.BytesIO()
     image.quantize(COLORS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()

@@ -8,7 +8,7 @@ from sim.world.robot import DT, RATE, CommandError, Odometry, Pose, RobotModel, 
 from sim.world.wheels import Wheels
 
 # Calls to these setters are faster than assignments, for which pymunk checks the attribute's name each time.
-_set_velocity, _set_angular_velocity = pymunk.Body.velocity.fset, pymunk.Body.angular_velocity.fset
+_set_velocity, _set_angular_velocity = pymunk.Body.velocity.fset, pymunk.Body.angular_velocity.fset  # type: ignore[attr-defined]
 
 
 class Drive:

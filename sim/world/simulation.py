@@ -2,6 +2,7 @@
 
 import functools
 import math
+from typing import Any
 
 from sim.world.bodies import Body
 from sim.world.contacts import Contact, ContactTracker
@@ -59,7 +60,7 @@ class Simulation:
     @property
     def poses(self) -> list[Pose]:
         """The pose of each of `bodies`, in their order."""
-        moving = (*self.robots.values(), *self._boxes, *self._people)
+        moving: tuple[Any, ...] = (*self.robots.values(), *self._boxes, *self._people)
         return [one.pose for one in moving]
 
     def advance(self, until: float) -> None:

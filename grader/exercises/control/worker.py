@@ -42,8 +42,7 @@ def looks_at_each_picture(run: Recording) -> None:
     taken = _pictures(run)
     missed = []
     for picture in taken:
-        first = picture.responses[:1]
-        if picture.values()[:1] != [_brightest(picture)] or _is_early(picture, first[0]):
+        if picture.values()[:1] != [_brightest(picture)] or _is_early(picture, picture.responses[0]):
             missed.append(picture)
     if missed:
         first = missed[0]

@@ -1,6 +1,7 @@
 """`nbgrader export`: all points as class/grades.csv, of the assignments with submissions."""
 import csv
 from pathlib import Path
+from typing import Any
 
 from nbgrader.api import Gradebook, MissingEntry
 from nbgrader.plugins import CsvExportPlugin
@@ -31,7 +32,7 @@ class Grades(CsvExportPlugin):
                             table.writerow({key: inert(value) for key, value in row.items()})
 
 
-def _row(gradebook: Gradebook, assignment: object, student: object) -> dict[str, object]:
+def _row(gradebook: Gradebook, assignment: Any, student: Any) -> dict[str, object]:
     """A student without a submission has 0 points, as in nbgrader."""
     row = {
         "assignment": assignment.name,

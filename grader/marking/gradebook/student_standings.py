@@ -3,6 +3,7 @@ import hashlib
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import astuple, dataclass
 from datetime import datetime
+from typing import Any
 
 from nbgrader.api import Gradebook, SubmittedAssignment, SubmittedNotebook
 from nbgrader.apps import NbGrader
@@ -57,13 +58,13 @@ def _standing(found: SubmittedAssignment) -> Standing:
     )
 
 
-def _points(grade: object) -> float | None:
+def _points(grade: Any) -> float | None:
     """The points that count: by hand or by marking, with extra credit."""
     base = grade.auto_score if grade.manual_score is None else grade.manual_score
     return base if grade.extra_credit is None else (base or 0.0) + grade.extra_credit
 
 
-def _by_hand(grade: object) -> bool:
+def _by_hand(grade: Any) -> bool:
     return grade.manual_score is not None or bool(grade.extra_credit)
 
 

@@ -121,15 +121,15 @@ def _defined(source: str) -> Iterator[str]:
         elif isinstance(node, ast.Import | ast.ImportFrom):
             yield from ((each.asname or each.name).split(".")[0] for each in node.names)
         else:
-            yield from (each.id for each in ast.walk(node) if _is_name(each, ast.Store))
+            yield from (each.id for each in ast.walk(node) if _is_name(each, ast.Store))  # type: ignore[attr-defined]
 
 
 def _used(source: str) -> Iterator[str]:
     """The names that a cell uses and doesn't bind itself."""
     nodes = [each for node in _statements(source) for each in ast.walk(node)]
     bound = {each.arg for each in nodes if isinstance(each, ast.arg)}
-    bound |= {each.id for each in nodes if _is_name(each, ast.Store)}
-    yield from (each.id for each in nodes if _is_name(each, ast.Load) and each.id not in bound)
+    bound |= {each.id for each in nodes if _is_name(each, ast.Store)}  # type: ignore[attr-defined]
+    yield from (each.id for each in nodes if _is_name(each, ast.Load) and each.id not in bound)  # type: ignore[attr-defined]
 
 
 def _is_name(node: ast.AST, context: type[ast.expr_context]) -> bool:

@@ -46,7 +46,7 @@ def home_page(root: Path) -> str:
         "graph": base64.b64encode(graph._repr_png_()[0]).decode(),
         "graph_words": html.escape(graph.description),
         "plot": plot_signal(drive, "/cmd_vel", "linear.x", "angular.z")._repr_mimebundle_()["text/html"],
-        "score": nodes.counter.grade(program["Counter"])._repr_html_(),
+        "score": nodes.counter.grade(program["Counter"])._repr_html_(),  # type: ignore[attr-defined]
         "chapters": "".join(_chapter(chapter, root) for chapter in course_map(root / "course").chapters),
     }
     template = files("grader.marking.release").joinpath("site_home.html").read_text(encoding="utf-8")

@@ -30,8 +30,8 @@ class Release:
 
 def load_release(folder: Path) -> Release:
     """Read a release from its folder. Raises CourseError if it is too large."""
-    files = (entry.path for entry in list_entries(folder) if entry.kind == FILE)
-    contents = {path: (folder / path).read_bytes() for path in files if not is_hidden(path)}
+    paths = (entry.path for entry in list_entries(folder) if entry.kind == FILE)
+    contents = {path: (folder / path).read_bytes() for path in paths if not is_hidden(path)}
     own = [path for path in contents if path.endswith(SUFFIX) and "/" not in path]
     files = {path: data for path, data in contents.items() if path not in own}
     if (size := sum(map(len, files.values()))) > MAX_RELEASE_BYTES:

@@ -75,7 +75,7 @@ class Choices:
 
     def _arranged(self, students: list[Fiber], ready: list[Fiber]) -> list[Fiber]:
         now, intensity = self._now(), self.order.intensity
-        draws = {fiber: self.order.draw("turn", now, fiber.process.key, fiber.number) for fiber in ready}
+        draws = {fiber: self.order.draw("turn", now, fiber.process.key, fiber.number) for fiber in ready}  # type: ignore[attr-defined]
         ranks = {fiber: self.rank(draw, intensity) for fiber, draw in draws.items()}
         arranged = sorted(students, key=lambda fiber: ranks.get(fiber, USUAL))
         places = {fiber: index for index, fiber in enumerate(fiber for fiber in arranged if fiber in ranks)}

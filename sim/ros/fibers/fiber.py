@@ -86,7 +86,7 @@ class Fiber:
 
     def attach_thread(self, thread: threading.Thread) -> None:
         """Make this the thread that student code finds as its own, alive while the fiber is."""
-        self.thread, thread._sim = thread, self
+        self.thread, thread._sim = thread, self  # type: ignore[attr-defined]
 
     def runnable(self) -> bool:
         """Return whether what it waits for has happened."""

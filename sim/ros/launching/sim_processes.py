@@ -94,7 +94,7 @@ class SimProcess:
         def body() -> None:
             self._run_main()
 
-        body.__name__, body.bundled = main.__name__, getattr(main, "bundled", False)
+        body.__name__, body.bundled = main.__name__, getattr(main, "bundled", False)  # type: ignore[attr-defined]
         launch = run.current.process
         spec = Process(body, arguments=arguments, host=launch.host, lenient=launch.spec.lenient)
         self._process = run.start(spec, from_course=launch.from_course)

@@ -17,7 +17,7 @@ def type_name(message_class: type) -> str:
 
 
 @functools.cache
-def message_class(name: str) -> type:
+def message_class(name: str) -> type[Any]:
     """The class of that name, e.g. "std_msgs/msg/String" or "std_srvs/srv/SetBool_Request".
 
     Raises ImportError or AttributeError if there is none.

@@ -67,6 +67,6 @@ def _catching(code: CodeType) -> list[tuple[range, frozenset[str]]]:
             each for part_ in caught for each in (part_.elts if isinstance(part_, ast.Tuple) else [part_])
         ]
         if inner:
-            lines = range(part.body[0].lineno, (part.body[-1].end_lineno or 0) + 1)
+            lines = range(part.body[0].lineno, (part.body[-1].end_lineno or 0) + 1)  # type: ignore[attr-defined]
             found.append((lines, frozenset(ast.unparse(each).rpartition(".")[2] for each in inner if each)))
     return found

@@ -52,7 +52,7 @@ class Robot(Node):
         self._latency = round(world.lidar.latency * SECOND)
         self._clock_offset = round(world.lidar.clock_offset * SECOND)
         if world.robot.stamped:
-            self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)
+            self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)  # type: ignore[attr-defined]
         else:
             self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
         self.clock_pub = self.create_publisher(Clock, "/clock", 1) if self.first else None

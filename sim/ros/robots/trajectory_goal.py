@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
-from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
 
 from sim.nanoseconds import SECOND, in_seconds
 from sim.world.machines import JointModel, Waypoint
 
-Goal = FollowJointTrajectory.Goal
+Goal: TypeAlias = Any  # FollowJointTrajectory.Goal, which has no types
 GOAL_TOLERANCE = 0.01
 """Default goal tolerance of a joint (rad)."""
 

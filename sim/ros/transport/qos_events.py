@@ -67,7 +67,7 @@ def event_counts(
     found = {}
     for handler in handlers:
         if handler.event_type in kinds:
-            found[handler.event_type] = handler._sim = EventCounts(run.scheduler, kinds[handler.event_type])
+            found[handler.event_type] = handler._sim = EventCounts(run.scheduler, kinds[handler.event_type])  # type: ignore[attr-defined]
     return found
 
 

@@ -86,7 +86,7 @@ def _hello(node: Node, output: Output, options: Namespace) -> None:
     node.create_subscription(
         String,
         options.topic,
-        lambda message: greetings.count(greetings.subscribed, message.data),
+        lambda message: greetings.count(greetings.subscribed, message.data),  # type: ignore[attr-defined]
         qos_profile_system_default,
     )
     printed = time.monotonic()

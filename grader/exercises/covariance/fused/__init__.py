@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -82,7 +83,7 @@ def _starts(run: Recording) -> list[Seconds]:
     return [stamp for stamp in found if stamp is not None]
 
 
-def _row(odom: object) -> tuple[float, float, float]:
+def _row(odom: Any) -> tuple[float, float, float]:
     turn = odom.pose.pose.orientation
     return since_start(odom.header.stamp), 2 * math.atan2(turn.z, turn.w), odom.pose.covariance[35]
 

@@ -1,7 +1,7 @@
 """Weights of guesses about where the robot is: how well each of them explains a scan."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def _weighed(run: Recording, row: Message) -> Weighed:
     return Weighed(row.stamp, guesses, weights, np.array([is_close(guess, truth) for guess in guesses]))
 
 
-def _array(poses: Sequence[object]) -> np.ndarray:
+def _array(poses: Sequence[Any]) -> np.ndarray:
     rows = [(pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w) for pose in poses]
     return np.array(rows)
 

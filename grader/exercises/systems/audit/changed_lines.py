@@ -27,8 +27,8 @@ def changed_lines(name: str, methods: Mapping[Any, Any], inherits: bool) -> int:
     count = 0
     for each in names:
         if each in methods or not inherits:
-            sources = given.get(each, ""), methods.get(each, "")
-            count += _changed(*map(_statements, sources), each if inherits else "")
+            before, after = _statements(given.get(each, "")), _statements(methods.get(each, ""))
+            count += _changed(before, after, each if inherits else "")
     return count
 
 
