@@ -95,8 +95,9 @@ class Guard:
         self._seen += thread_time() - self._left
         self._checked = wall_time()
         interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
+        users_timer = signal.setitimer(signal.ITIMER_REAL, 0)  # first: its alarm is not for this guard
         alarm = signal.signal(signal.SIGALRM, self._check)
-        users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_check, CHECK_EVERY)
+        signal.setitimer(signal.ITIMER_REAL, self._next_check, CHECK_EVERY)
         try:
             yield
         finally:

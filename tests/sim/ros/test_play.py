@@ -191,6 +191,32 @@ def test_the_users_alarm_rings_while_something_plays():
     assert rung == [1]
 
 
+def test_no_alarm_of_the_users_rings_for_the_guard(monkeypatch):
+    """While the handler of alarms changes, the user's timer stands still."""
+    import signal
+
+    from sim.ros.engine import guard
+
+    def changes(number, handler):
+        if number == signal.SIGALRM:
+            left.append(signal.getitimer(signal.ITIMER_REAL)[0])
+        return usual(number, handler)
+
+    left: list[float] = []
+    usual = signal.signal
+    made = playing.player(mains.classic, world="room", seconds=600)
+    monkeypatch.setattr(guard.signal, "signal", changes)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 1_000)
+        made.play_frame()
+        kept = signal.getitimer(signal.ITIMER_REAL)[0]
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        made.stop()
+    assert len(left) >= 2 and set(left[:2]) == {0.0}
+    assert 0 < kept <= 1_000
+
+
 @pytest.mark.parametrize("program", LATE_FAULTS, ids=lambda program: program.__qualname__)
 def test_it_ends_as_run_does(program, monkeypatch):
     from sim.ros.engine import guard
