@@ -170,9 +170,10 @@ class Session:
 
     def give_up(self) -> None:
         """End the run because it can't be executed: not even to end its programs."""
-        if not self.over:
-            self.over = True
-            self._process.collect()
+        with _turn:
+            if not self.over:
+                self.over = True
+                self._process.collect()
 
     @contextlib.contextmanager
     def _executing(self) -> Iterator[None]:
