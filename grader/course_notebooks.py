@@ -23,6 +23,8 @@ CHAPTERS = "chapters.json"  # in course/
 FIRST = "lesson.ipynb"  # the first or only notebook of a lesson
 PICTURE = "goal.svg"  # the goal of FIRST, beside it; that of driving.ipynb is driving.svg
 FOLDERS = ("course", "exercises")
+# A cell that calls one of these displays a run, or a source, which the student's process doesn't have.
+DISPLAYS = {"run", "packages.see", "launching.see", "testing.see", "inspect.getsource"}
 BRIDGE = "bridge"  # the folder of the pages after the lessons; each is a notebook
 UPDATED = ".updated.txt"  # in the folder of the course; see work_folder.py
 NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import nbformat
+from nbformat import NotebookNode
 
-from grader.marking.judge.display_only_cells import DISPLAYS
-from grader.marking.judge.personal_release import personal_notebook
+from grader.course_notebooks import DISPLAYS
 from tests.exercises.score_tables import ROOT
 
 WRITES = "%%writefile "
@@ -36,11 +36,7 @@ def solution(
     notebook = nbformat.read(path, 4)
     if number is not None:
         exercise = getattr(importlib.import_module(f"grader.exercises.{topic}"), name)
-        answers = personal_notebook(notebook, {exercise.name: number if copied is None else copied})
-        notebook = personal_notebook(notebook, {exercise.name: number})
-        for cell, answer in zip(notebook.cells, answers.cells, strict=True):
-            if cell.metadata.get("nbgrader", {}).get("solution"):
-                cell.source = answer.source
+        notebook = _variant(notebook, exercise.name, number, number if copied is None else copied)
     space: dict[str, Any] = {}
     with _in_a_folder():
         for cell in notebook.cells:
@@ -54,6 +50,18 @@ def solution(
                     with contextlib.suppress(NameError):  # of a recording
                         exec(ast.unparse(statement), space)
     raise ValueError(f"{path} grades no {name}")
+
+
+def _variant(notebook: NotebookNode, exercise: str, number: int, answered: int) -> NotebookNode:
+    """The notebook with one variant of an exercise, and the answers of that one or another one."""
+    from grader.marking.judge.personal_release import personal_notebook  # the rest is tried without marking
+
+    answers = personal_notebook(notebook, {exercise: answered})
+    notebook = personal_notebook(notebook, {exercise: number})
+    for cell, answer in zip(notebook.cells, answers.cells, strict=True):
+        if cell.metadata.get("nbgrader", {}).get("solution"):
+            cell.source = answer.source
+    return notebook
 
 
 @functools.cache

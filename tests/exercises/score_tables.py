@@ -25,7 +25,7 @@ import nbformat
 from nbformat import NotebookNode
 
 from grader import Exercise, Score
-from grader.marking.release.run_notebooks import notebook_client
+from grader.notebook_client import notebook_client
 from sim import Process
 from tests.exercises.builds import kept_builds
 from tests.exercises.evidence import Evidence

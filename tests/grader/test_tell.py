@@ -1,6 +1,11 @@
+import pytest
+
 from grader import tell
 from sim import Recording, run
 from sim.evidence import CallbackError, Ended
+from tests.sim.ros.test_launch_lifecycle import BY_EVENTS, launch_file  # noqa: F401
+from tests.sim.ros.test_parameter_sources import FILES, given_three_times
+from tests.sim.ros.test_turtle_launch import simulators
 from tests.students import misfits
 
 
@@ -50,3 +55,20 @@ def test_a_run_without_an_error_in_which_something_is_wrong(capsys):
         "/listener requests reliable, so nothing arrives. An offer has to be at least as strong as the\n"
         "request: offer reliable, or request best_effort.\n"
     )
+
+
+def test_transitions_that_a_launch_file_requests_are_no_error(launch_file, capsys):  # noqa: F811
+    tell(run(launch_file(BY_EVENTS), seconds=5, quiet=True))
+    assert capsys.readouterr().out.splitlines()[0].startswith("No error.")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_several_start_values_of_a_parameter_are_no_error(name, tmp_path, capsys):
+    tell(run(given_three_times(tmp_path, name), seconds=1, quiet=True))
+    assert capsys.readouterr().out == "No error. All 1 s were run.\n"
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_turtlesims_beside_the_world_s_own_are_no_error(count, tmp_path, capsys):
+    tell(run(simulators(tmp_path, count), world="turtlesim", seconds=3, quiet=True))
+    assert capsys.readouterr().out == "No error. All 3 s were run.\n"

@@ -8,8 +8,6 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from sim import run
-from sim.absent_packages import explain
 from tests.patience import PATIENCE
 
 PREFIX = re.compile(r'^(failed on (setup|teardown) with ")?(Failed: )?')
@@ -303,39 +301,6 @@ MESSAGES = {
         "description is asynchronous."
     ),
 }
-IN_A_RUN = """
-import rclpy
-from launch_ros.actions import Node
-from std_msgs.msg import String
-
-@pytest.fixture
-def talker():
-    return Node(
-        package="demo_nodes_py", executable="talker", namespace="a", remappings=[("chatter", "talk")],
-        cached_output=True,
-    )
-
-@launch_pytest.fixture
-def description(talker):
-    return LaunchDescription([talker])
-
-@pytest.mark.launch(fixture=description)
-def test_messages_arrive(talker, launch_context):
-    rclpy.init()
-    node = rclpy.create_node("test")
-    received = []
-    node.create_subscription(String, "/a/talk", lambda msg: received.append(msg.data), 10)
-    while len(received) < 2:
-        rclpy.spin_once(node)
-    assert received == ["Hello World: 0", "Hello World: 1"]
-    process_tools.assert_stderr_sync(launch_context, talker, lambda text: "World: 3" in text, timeout=3.0)
-    assert not process_tools.wait_for_exit_sync(launch_context, talker, timeout=0.5)
-    rclpy.shutdown()
-    yield
-    assert talker.return_code == 0
-"""
-
-
 @pytest.fixture(scope="module")
 def outcomes(tmp_path_factory):
     """Runs the tests in a text by pytest; the first message of each that failed, "" of each that passed."""
@@ -395,44 +360,6 @@ def test_an_unknown_name_is_an_attribute_error():
         _ = launch_pytest.nothing
 
 
-def test_in_a_run_the_processes_are_programs_of_the_run(tmp_path):
-    (tmp_path / "test_it.py").write_text(HEAD + IN_A_RUN)
-    codes = []
-
-    def tests() -> None:
-        options = ["-s", "--tb=short", "-o", "addopts=", "--rootdir", str(tmp_path)]
-        codes.append(pytest.main([*OPTIONS, *options, *PLUGIN, str(tmp_path)]))
-
-    recording = run(tests, seconds=60)
-    assert [int(code) for code in codes] == [0]
-    assert recording.ended.reason == "finished"
-    logged = [line.text for line in recording.logs if line.node == "talker-1"]
-    assert logged == [
-        "process started with pid [1]",
-        "sending signal 'SIGINT' to process[talker-1]",
-        "process has finished cleanly [pid 1]",
-    ]
-
-
-def test_a_launch_service_of_a_program_starts_programs_of_the_run():
-    statuses = []
-
-    def program() -> None:
-        from launch import LaunchDescription, LaunchService
-        from launch.actions import Shutdown, TimerAction
-        from launch_ros.actions import Node
-
-        service = LaunchService()
-        talker = Node(package="demo_nodes_py", executable="talker")
-        shutdown = TimerAction(period=3.5, actions=[Shutdown()])
-        service.include_launch_description(LaunchDescription([talker, shutdown]))
-        statuses.append(service.run())
-
-    recording = run(program, seconds=60)
-    assert statuses == [0]
-    assert [row.stamp for row in recording.messages("/chatter")] == [1.0, 2.0, 3.0]
-
-
 def test_ready_to_test_does_nothing_in_another_launch(tmp_path, monkeypatch):
     from launch import LaunchDescription, LaunchService
     from launch_pytest.actions import ReadyToTest
@@ -441,18 +368,6 @@ def test_ready_to_test_does_nothing_in_another_launch(tmp_path, monkeypatch):
     service = LaunchService()
     service.include_launch_description(LaunchDescription([ReadyToTest()]))
     assert service.run() == 0
-
-
-@pytest.mark.parametrize("name", ["launch_testing", "launch_testing_ros.actions"])
-def test_a_test_that_imports_launch_testing_gets_the_sentence_of_a_run(tmp_path, name):
-    (tmp_path / "test_file.py").write_text(f"import {name}\n")
-    (tmp_path / "test_body.py").write_text(f"def test_it():\n    from {name} import x\n")
-    (tmp_path / "test_other.py").write_text("def test_it():\n    import nothing_of_this_name\n")
-    command = [sys.executable, "-m", "pytest", *OPTIONS, *PLUGIN, "--continue-on-collection-errors", "."]
-    out = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False).stdout
-    heading = re.escape(" What to do ")
-    found = re.findall(rf"^-+{heading}-+\n(.*)$", out, re.MULTILINE)
-    assert found == [explain(name.partition(".")[0])] * 2
 
 
 def test_files_that_last_failed_skips_are_skipped(tmp_path):

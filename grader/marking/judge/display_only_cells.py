@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from symtable import SymbolTable, symtable
 
-# A cell that calls one of these displays a run, or a source, which the student's process doesn't have.
-DISPLAYS = {"run", "packages.see", "launching.see", "testing.see", "inspect.getsource"}
+from grader.course_notebooks import DISPLAYS
+
 ROS2 = re.compile(r"^%ros2\b.*$", re.M)  # shows the last run
 # A cell with one of these may use a name that is not in its source.
 HIDDEN = {"eval", "exec", "globals", "locals", "vars", "get_ipython"}

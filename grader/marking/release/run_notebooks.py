@@ -9,18 +9,17 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import nbformat
-from nbclient import NotebookClient
 from nbclient.exceptions import DeadKernelError
 from nbformat import NotebookNode
 from nbgrader.utils import determine_grade, is_grade
 
+from grader.notebook_client import notebook_client
+
 # The start page lists exercises; page 10 of the bridge runs the navigator of lesson 6b.
 READ_BY_OTHERS = "exercises", "06_navigator"
 SECONDS_PER_CELL = 1800  # only against hanging: a busy machine compiles for minutes
-KERNEL_START = OUTPUT_LATE = 600  # s, likewise; nbclient reads no further output of a cell after the latter
 KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns about its open ports
 
 
@@ -102,17 +101,6 @@ def execute_notebook(notebook: NotebookNode, path: Path, start: str = "pass") ->
         except DeadKernelError:
             return ("its kernel died.",)
     return ()
-
-
-def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> NotebookClient:
-    """A client that runs a notebook with a time limit for each cell, even if cells raise, without widgets.
-
-    While nbclient answers a widget's messages, it may miss that the cell is done, and wait until the limit.
-    """
-    options = {"kernel_name": "python3", "allow_errors": True, "startup_timeout": KERNEL_START, **options}
-    client = NotebookClient(notebook, timeout=seconds, iopub_timeout=OUTPUT_LATE, **options)
-    client.comm_open_handlers.clear()
-    return client
 
 
 def errors_of(notebook: NotebookNode) -> list[str]:

@@ -7,7 +7,6 @@ import textwrap
 
 import pytest
 
-from grader import tell
 from sim import run
 from tests.patience import PATIENCE
 from tests.sim.standalone.programs import environment, free_domain
@@ -116,11 +115,6 @@ def test_events_bring_a_node_to_active(launch_file):
     ]
     assert recording.errors == []
     assert recording.digest == run(launch_file(BY_EVENTS), seconds=5, quiet=True).digest
-
-
-def test_tell_finds_nothing_in_it(launch_file, capsys):
-    tell(run(launch_file(BY_EVENTS), seconds=5, quiet=True))
-    assert capsys.readouterr().out.splitlines()[0].startswith("No error.")
 
 
 def test_events_bring_a_node_of_a_real_process_to_active(launch_file):

@@ -3,8 +3,8 @@
 import nbformat
 import pytest
 from jupyter_client.manager import start_new_kernel
+from nbclient import NotebookClient
 
-from grader.marking.release.run_notebooks import notebook_client
 from sim import run
 from tests.patience import PATIENCE
 from tests.students.engine import mains, output
@@ -45,7 +45,7 @@ def shown():
     """What each cell shows on stdout."""
     cells = [nbformat.v4.new_code_cell(dedented(source)) for source in CELLS.values()]
     notebook = nbformat.v4.new_notebook(cells=cells)
-    notebook_client(notebook, PATIENCE, allow_errors=False).execute()
+    NotebookClient(notebook, timeout=PATIENCE, startup_timeout=PATIENCE, kernel_name="python3").execute()
     return {
         name: "".join(o.text for o in cell.outputs if o.output_type == "stream" and o.name == "stdout")
         for name, cell in zip(CELLS, notebook.cells, strict=True)

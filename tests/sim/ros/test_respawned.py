@@ -1,16 +1,12 @@
 """Programs that are killed during a run, and started again."""
 
-import functools
 import itertools
 
 from rclpy.node import Node
 from std_msgs.msg import Int32
 
-from grader.exercise import Scenario
-from grader.programs import LocalPrograms, RemotePrograms
 from sim import Process, run
 from sim.ros.launching.respawned import respawned
-from tests.sim.ros.remote.follower_process import FollowerProcess
 
 
 class Counter(Node):
@@ -51,9 +47,8 @@ def test_a_program_is_killed_and_begins_anew_later():
 
 
 def test_each_program_dies_at_its_own_time_and_keeps_its_settings():
-    prepare = functools.partial(respawned, 1.0, 3.0, 0.5)
-    cast = LocalPrograms([Counter, Process(Counter, remappings=[("/count", "/other")])])
-    recording = run(*[prepare.func(program, *prepare.args) for program in cast.programs()], seconds=5)
+    programs = Process(Counter), Process(Counter, remappings=[("/count", "/other")])
+    recording = run(*[respawned(program, 1.0, 3.0, 0.5) for program in programs], seconds=5)
     assert counts(recording).index(1, 1) != counts(recording, "/other").index(1, 1)
 
 
@@ -61,12 +56,3 @@ def test_a_program_that_ends_by_itself_is_not_restarted():
     recording = run(respawned(Quitter, 0.3, 0.5, 0.1), seconds=5)
     assert counts(recording)[-1] == 8
     assert recording.all_exited_at is not None and recording.all_exited_at < 2.0
-
-
-def test_a_program_in_another_process_is_killed_at_the_same_time():
-    scenario = Scenario(None, 5.0, prepare=functools.partial(respawned, 1.0, 2.0, 0.5))
-    follower = FollowerProcess()
-    with follower.serving(__name__, "Counter") as remote:
-        there = counts(scenario.run(RemotePrograms(remote), 0))
-    follower.close()
-    assert there == counts(scenario.run(LocalPrograms([Counter]), 0))

@@ -5,13 +5,13 @@ from dataclasses import replace
 import pytest
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-from grader.companions.joint_targets import gymnast
-from grader.worlds.arms import arm_of
 from sim import World
 from sim.world import LidarModel
 from tests.sim.ros.playing import player, to_the_end, watched
+from tests.students.machines.arm import ThreePositions
 
 
 class Circle(Node):
@@ -136,8 +136,18 @@ def test_a_contact_shows_as_long_as_it_lasts_and_shortly_after():
     assert dict(picture.states[-2]["numbers"])["contacts"].startswith("1, at ")
 
 
+class Gripper(Node):
+    """Another driver that publishes on /joint_states, of its own joint only."""
+
+    def __init__(self):
+        super().__init__("gripper")
+        publisher = self.create_publisher(JointState, "/joint_states", 10)
+        state = JointState(name=["gripper_joint"], position=[0.04])
+        self.create_timer(0.13, lambda: publisher.publish(state))
+
+
 def test_joints_are_drawn_by_their_names():
-    made = player(*gymnast(1), world=arm_of(1), seconds=6.0, speed=10.0)
+    made = player(ThreePositions, Gripper, world="arm", seconds=6.0, speed=10.0)
     picture = watched(made)
     picture.on_command({"topic": "/joint_states"})
     to_the_end(made)

@@ -11,8 +11,6 @@ from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_msgs.msg import String
 
-from grader import Exercise, check
-from grader.programs import RemotePrograms
 from sim import run
 from sim.ros.messages.codec import encode
 from sim.ros.remote import Remote, RemoteLost, Wire, WireError
@@ -393,48 +391,3 @@ def test_a_connection_closed_before_the_run_is_reported():
     with near, pytest.raises(RemoteLost) as lost:
         run(Remote(Wire(near)), seconds=1, quiet=True)
     assert lost.value.reason == "The process with the nodes has ended."
-
-
-# -- and the grader ----------------------------------------------------------------------------------
-
-
-class Companion(Node):
-    """A companion without a mistake."""
-
-    def __init__(self):
-        super().__init__("companion")
-
-
-@check(points=5)
-def talks(recording):
-    """The node talks."""
-    assert recording.messages("/chat"), "this check would be broken"
-
-
-TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Companion])
-
-
-def test_a_forged_error_is_not_attributed_to_the_course():
-    made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
-    with answering({"answer": None}, self_reports(errors=[made_up])) as remote:
-        score = TALKING.judge(RemotePrograms(remote))
-    assert (float(score), score.broken) == (0.0, [])
-
-
-def test_a_lost_process_is_not_attributed_to_the_course():
-    with answering({"answer": None}, {"failed": "no"}) as remote, pytest.raises(RemoteLost):
-        TALKING.judge(RemotePrograms(remote))
-
-
-@pytest.mark.parametrize("answer", [5, ["saw"], ["saw", 5], {}, [["saw"], "hint"]])
-def test_an_invalid_refusal_is_a_lost_process(answer):
-    with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
-        TALKING.judge(RemotePrograms(remote))
-    assert lost.value.reason == "The process with the nodes did not report whether they can be run."
-
-
-def test_a_refusal_is_shown_unchanged():
-    with answering({"answer": ["None", "Write your class."]}) as remote:
-        score = TALKING.judge(RemotePrograms(remote))
-    assert float(score) == 0.0
-    assert (score.verdicts[0].saw, score.verdicts[0].hint) == ("None", "Write your class.")

@@ -1,15 +1,23 @@
 """Nodes in another process get the same score pages as in one process.
 
 A right one and a wrong one of short exercises every day, and of the others at night: most of their model
-answers are marked so each day by tests/marking/test_solutions.py. `python -m tests.sim.ros.remote.tables`
+answers are marked so each day by tests/marking/test_solutions.py. `python -m tests.exercises.remote`
 compares all.
 """
 
 import pytest
 
 from tests.exercises.assignment import is_long
+from tests.exercises.remote import earned, exercises, judge, right, wrong
 from tests.exercises.score_tables import page
-from tests.sim.ros.remote.tables import earned, exercises, judge, right, wrong
+from tests.sim.ros.remote.follower_process import FollowerProcess
+
+
+@pytest.fixture(scope="module")
+def follower():
+    process = FollowerProcess()
+    yield process
+    process.close()
 
 
 def rows(pairs):

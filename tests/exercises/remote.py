@@ -1,6 +1,6 @@
 """The score tables of all assignments through two processes.
 
-python -m tests.sim.ros.remote.tables [ASSIGNMENT ...]    every node; shows where words or points differ
+python -m tests.exercises.remote [ASSIGNMENT ...]    every node; shows where words or points differ
 """
 
 from __future__ import annotations
