@@ -33,7 +33,7 @@ ON_HUB = "browser/test_hub_day", "marking/extras/hub/test_killed_hub", "marking/
 HUB = [f"tests/{name}.py" for name in ON_HUB]
 # What a class may use besides marking: only CI, `make test ARGS=extras` and runs that name them test it.
 EXTRAS = "tests/marking/extras", "tests/browser/test_hub_day.py", "tests/browser/test_league_page.py"
-# What is run on another ROS distribution: the engine's tests, two assignments, scores in two processes, two lessons.
+# What is run on another ROS distribution: the engine, two assignments, scores in two processes, two lessons.
 ASSIGNMENTS = [f"tests/exercises/test_{name}.py" for name in ("nodes", "topics", "remote")]
 ON_OTHERS = "tests/sim/ros/", *ASSIGNMENTS
 RUNS = f"{LESSONS}::test_a_lesson_runs_from_top_to_bottom"

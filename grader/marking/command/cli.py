@@ -3,7 +3,8 @@ import argparse
 import contextlib
 import errno
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +25,7 @@ from grader.marking.sandbox.confinement import USER
 from grader.marking.self_check import check_marking
 from grader.marking.task import TaskPool
 from grader.marking.version import course_version
+from grader.plugins import POOLS, plugins
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
@@ -33,6 +35,7 @@ gradebook, notebooks to class/autograded/ and students' pages to class/feedback/
 `nbgrader autograde` and `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # the exit status of shells
 WEAKER = "Here bubblewrap can't make a sandbox, so each student's process is a {}: see grader/README.md."
+NO_DASK = "several machines are an extra that is not installed here: leave out --dask"
 USUAL_JOBS = len(usable_cores())
 
 
@@ -126,10 +129,9 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
 @contextlib.contextmanager
 def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
     """A pool that marks correctly. Raises SandboxMissing and SandboxFailed."""
+    opened: AbstractContextManager[TaskPool]
     if settings.dask:
-        from grader.marking.extras.dask_cluster import DaskPool  # this import takes half a second
-
-        opened = DaskPool(settings.dask, settings.unsafe, secret)
+        opened = _dask_pool()(settings.dask, settings.unsafe, secret)
     else:
         opened = Pool(settings.jobs, settings.unsafe, secret)
     with opened as pool:
@@ -137,6 +139,14 @@ def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
             print(WEAKER.format(pool.isolation), file=sys.stderr)
         check_marking(pool)
         yield pool
+
+
+def _dask_pool() -> Callable[[str, bool, str], AbstractContextManager[TaskPool]]:
+    """The pool on other machines, which is an extra. Raises CourseError where there is none."""
+    if not (entry := plugins(POOLS).get("dask")):
+        raise CourseError(NO_DASK)
+    opens: Callable[[str, bool, str], AbstractContextManager[TaskPool]] = entry.load()
+    return opens
 
 
 def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:

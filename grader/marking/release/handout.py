@@ -35,8 +35,10 @@ MARKING_EXCLUDED = (
     *("extras/one_submission", "extras/dask_cluster", "extras/hub", "extras/learning_platform"),
     *("extras/likeness", "extras/platforms", "extras/receipts", "extras/own_notebooks"),
 )
+PARTS = "ros_packages/python", "sim", "grader", "grader/marking", "grader/marking/extras"
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
+    *(f"{part}/pyproject.toml" for part in PARTS),  # for tests of each part alone
     *("jupyter/teach", "jupyter/hub", "course/README.md"),
     *("grader/README.md", "grader/YOUR_FIRST_EXERCISE.md"),
 )

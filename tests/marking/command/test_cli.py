@@ -95,6 +95,13 @@ def test_what_cannot_be_marked_is_reported_in_one_line(command, capsys):
     assert output.endswith(": did you mean anna?\n")
 
 
+def test_several_machines_where_these_are_not_installed(course, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "plugins", lambda group: {})
+    assert main([ASSIGNMENT, "--dask", "tcp://127.0.0.1:1"]) == 1
+    expected = "Not marked: several machines are an extra that is not installed here: leave out --dask.\n"
+    assert capsys.readouterr().err == expected
+
+
 def test_without_a_sandbox_it_says_what_to_install(course, capsys):
     words = "There is no bubblewrap here: run `sudo apt install bubblewrap`, or add `--unsafe`."
 
@@ -135,18 +142,8 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
-        "usage: python -m grader mark ASSIGNMENT | --check [--help]\n"
-        "       python -m grader mark-one SUBMISSION --assignment NAME [--help]\n"
-        "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
-        "       python -m grader hub [--check] [--help]\n"
-        "       python -m grader league [NOTEBOOK ...] [--help]\n"
-        "       python -m grader collect ARCHIVE.zip [--help]\n"
-        "       python -m grader grades ASSIGNMENT [--help]\n"
-        "       python -m grader platform gradescope|... ASSIGNMENT [--help]\n"
-        "       python -m grader likeness ASSIGNMENT [--help]\n"
-        "       python -m grader variants ASSIGNMENT [--help]\n"
-        "       python -m grader receipts --issuer TEXT [--help]\n"
-        "       python -m grader verify RECEIPT [--help]\n"
+        "usage: python -m grader COMMAND ...\nCommands, each with --help: collect, due, grades, hub, league, "
+        "likeness, mark, mark-one, platform, receipts, variants, verify\n"
     )
     assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))
     command = [sys.executable, "-m", "grader", "grade"]

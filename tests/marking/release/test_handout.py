@@ -126,7 +126,7 @@ def test_of_the_commands_students_have_the_league(folder):
         environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'ros_packages/python'}"}
         return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
 
-    usage = "usage: python -m grader league [NOTEBOOK ...] [--help]\n"
+    usage = "usage: python -m grader COMMAND ...\nCommands, each with --help: league\n"
     assert (output("mark", "01_nodes").returncode, output("mark", "01_nodes").stderr) == (2, usage)
     expected = "there is no notebook robot.ipynb"
     assert output("league", "robot.ipynb", "--assignment", "01_nodes").stderr == f"Not played: {expected}.\n"

@@ -9,17 +9,20 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import install
 import pytest
 
 from tests.patience import PATIENCE
 
+INTERFACES = Path(__file__).parents[2] / "ros_packages" / "interfaces"
+sys.path.append(str(INTERFACES))
+import install  # noqa: E402
+
 
 @pytest.fixture
-def changed(tmp_path, definitions) -> Path:
+def changed(tmp_path) -> Path:
     """A copy of interfaces/ with one more package, so that its content is not installed and not cached."""
     copy = tmp_path / "ros_packages" / "interfaces"
-    shutil.copytree(definitions.parent, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(INTERFACES, copy, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(install.LIDAR_FOLDER, tmp_path / "sim/world/rays")
     message = copy / "definitions" / "a_msgs" / "msg" / "Broken.msg"
     message.parent.mkdir(parents=True)
@@ -50,18 +53,18 @@ def test_two_builds_in_different_folders_have_the_same_bytes(tmp_path, monkeypat
     assert built[0] == built[1]
 
 
-def test_a_second_call_is_silent_and_leaves_no_file_behind(definitions):
-    before = files(definitions.parent)
-    done = run(definitions.parent)
+def test_a_second_call_is_silent_and_leaves_no_file_behind():
+    before = files(INTERFACES)
+    done = run(INTERFACES)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    assert files(definitions.parent) == before
+    assert files(INTERFACES) == before
 
 
-def test_a_second_call_loads_nothing_that_a_build_or_an_installation_needs(definitions):
+def test_a_second_call_loads_nothing_that_a_build_or_an_installation_needs():
     """Every `make` begins with it, so it is to be quick."""
     program = "import sys, install; install.main(); print(*{name.split('.')[0] for name in sys.modules})"
     words = [sys.executable, "-c", program]
-    loaded = subprocess.check_output(words, cwd=definitions.parent, text=True, timeout=PATIENCE).split()
+    loaded = subprocess.check_output(words, cwd=INTERFACES, text=True, timeout=PATIENCE).split()
     assert "install" in loaded
     assert {"setuptools", "pip", "numpy", "em", "rclpy", "rosidl_adapter", "rosidl_parser"}.isdisjoint(loaded)
 
@@ -84,8 +87,8 @@ def test_without_a_compiler_it_stops_with_one_sentence(changed, tmp_path):
     )
 
 
-def test_without_the_ros_wheels_it_stops_with_one_sentence(definitions):
-    done = run(definitions.parent, "-S")
+def test_without_the_ros_wheels_it_stops_with_one_sentence():
+    done = run(INTERFACES, "-S")
     assert done.returncode == 1
     assert done.stderr == (
         "Building the ROS interfaces needs the ROS wheels, but rosidl_generator_c is missing: "

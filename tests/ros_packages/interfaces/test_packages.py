@@ -17,7 +17,7 @@ from rosidl_adapter.parser import (
     parse_service_string,
 )
 
-DEFINITIONS = Path(__file__).resolve().parents[2] / "ros_packages" / "interfaces" / "definitions"
+DEFINITIONS = Path(__file__).resolve().parents[3] / "ros_packages" / "interfaces" / "definitions"
 PACKAGES = sorted(path.name for path in DEFINITIONS.iterdir())
 INTERFACES = sorted(str(file.relative_to(DEFINITIONS)) for file in DEFINITIONS.glob("*/*/*.*"))
 OWN = "warehouse_msgs/"  # the others are upstream's
