@@ -16,7 +16,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab teach test solutions demo exercises league handout site hub bench tidy lint setup tools wheels release lock clean
+.PHONY: help lab teach test parts solutions demo exercises league handout site hub bench tidy lint setup tools wheels release lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -33,6 +33,9 @@ TESTS = $(if $(filter extras,$(firstword $(ARGS))),-m 'extras and not soak' $(wo
 test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some, ARGS=extras those of a class's extras)
 	@sh .ci/javascript install
 	$(BIN)/python -m pytest -n $(TESTERS) --dist loadfile $(TESTS)
+
+parts: tools  ## test each part alone, with only its dependencies (make parts ARGS=sim tests one)
+	@$(BIN)/python .ci/parts $(ARGS)
 
 solutions: setup  ## run every lesson and every solution (make solutions ARGS="--junit FILE")
 	$(BIN)/python -m grader.marking.release.run_solutions $(ARGS)
@@ -63,7 +66,7 @@ bench: tools  ## print the benchmarks (make bench ARGS=scenario prints one)
 	$(BIN)/python -m tests.bench $(ARGS)
 
 tidy: tools  ## normalize the notebooks, sort imports
-	$(BIN)/python -m grader.notebook_format
+	$(BIN)/python -m grader.course_files.notebook_format
 	$(BIN)/python -m grader.marking.release.service_notebooks
 	$(BIN)/ruff check --fix
 
@@ -74,7 +77,7 @@ lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	@$(SPELLING)
-	$(BIN)/python -m grader.notebook_format --check
+	$(BIN)/python -m grader.course_files.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
 	@sh .ci/javascript
 	@$(BIN)/python -m tests.soak_record

@@ -2,7 +2,7 @@
 
 from grader.catalog import grade
 from grader.checks.check import Missed, check
-from grader.course_map import course_map
+from grader.course_files.course_map import course_map
 from grader.exercise import Exercise
 from grader.scenario import Scenario
 from grader.score import Score

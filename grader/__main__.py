@@ -6,7 +6,7 @@ from grader.plugins import COMMANDS, plugins
 
 
 def usage() -> str:
-    """How to call the available commands."""
+    """The usage of the available commands."""
     return f"usage: python -m grader COMMAND ...\nCommands, each with --help: {', '.join(plugins(COMMANDS))}"
 
 

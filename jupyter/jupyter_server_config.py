@@ -3,7 +3,7 @@ import os
 import sys
 from pathlib import Path
 
-from grader import work_folder
+from grader.course_files import work_folder
 
 c = get_config()  # noqa: F821  (Jupyter provides it)
 

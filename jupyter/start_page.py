@@ -11,7 +11,7 @@ from jupyter_server.utils import url_path_join
 from tornado import web
 
 from grader import course_map
-from grader.review_questions import review_html, review_questions
+from grader.course_files.review_questions import review_html, review_questions
 
 ADDRESS = "ros2-course/start"
 NOTEBOOK = "course/start.ipynb"

@@ -22,8 +22,9 @@ SHOWN_ONLY = {".md", ".html", ".j2", ".css", ".js"}
 # Nor do these: no process that judges or is judged imports them.
 MARKING = ("command", "gradebook", "release", "extras", "journal.py", "lateness.py", "mark_evidence.py")
 MARKING += ("version.py",)
-APART = {*(f"grader/marking/{name}" for name in MARKING), "grader/__main__.py", "grader/work_folder.py"}
-APART |= {"grader/review_questions.py", "sim/__main__.py", "sim/standalone"}
+APART = {*(f"grader/marking/{name}" for name in MARKING), "grader/__main__.py"}
+APART |= {*(f"grader/course_files/{name}.py" for name in ("review_questions", "work_folder"))}
+APART |= {"sim/__main__.py", "sim/standalone"}
 LOCK = "requirements.lock"  # the file with the version of every library
 LIBRARIES = (RCLPY_DISTRIBUTION, "numpy", "pymunk", "ipython", "matplotlib")
 KNOWN = Path(__file__).with_name("__pycache__") / "versions.json"

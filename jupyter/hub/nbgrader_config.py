@@ -3,7 +3,7 @@ import os
 import pwd
 from pathlib import Path
 
-from grader.work_folder import find_work_folder
+from grader.course_files.work_folder import find_work_folder
 
 c = get_config()  # noqa: F821  (nbgrader provides it)
 

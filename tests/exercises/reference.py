@@ -16,7 +16,7 @@ from typing import Any
 import nbformat
 from nbformat import NotebookNode
 
-from grader.course_notebooks import DISPLAYS
+from grader.course_files.course_notebooks import DISPLAYS
 from tests.exercises.score_tables import ROOT
 
 WRITES = "%%writefile "

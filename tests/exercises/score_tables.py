@@ -25,7 +25,7 @@ import nbformat
 from nbformat import NotebookNode
 
 from grader import Exercise, Score
-from grader.notebook_client import notebook_client
+from grader.course_files.notebook_client import notebook_client
 from sim import Process
 from tests.exercises.builds import kept_builds
 from tests.exercises.evidence import Evidence

@@ -19,7 +19,7 @@ from tests.exercises.changed_recordings import (
     strange_numbers,
 )
 from tests.exercises.test_adversaries import ALL
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 EXERCISES = [
     pytest.param(

@@ -21,7 +21,7 @@ from grader.programs import LocalPrograms
 from sim.evidence import Ended, Graph
 from tests.exercises.assignment import first_run
 from tests.exercises.score_tables import misses, students
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 

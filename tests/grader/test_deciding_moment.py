@@ -8,7 +8,7 @@ from grader.deciding_moment import deciding_moment
 from grader.pictures import score_pictures
 from sim.evidence import LogLine
 from sim.view.packing import inflated
-from tests.grader.recordings import driven, published
+from tests.sim.recordings import driven, published
 
 STOPS = [(0, 0), (0, 0), (0, 0), (1, 0), (2, 0), (2, 0), (2, 0)]  # one a second
 

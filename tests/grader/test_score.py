@@ -18,7 +18,7 @@ from grader.pictures import missed_moments
 from sim import Recording, World, run
 from sim.evidence import Endpoint
 from sim.view import plot_topics
-from tests.grader.recordings import driven, published
+from tests.sim.recordings import driven, published
 from tests.students import misfits
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.work_folder import CHOSEN, student_files
+from grader.course_files.work_folder import CHOSEN, student_files
 from ros2_course import command as course_command
 from ros2_course.command import FILES, main
 

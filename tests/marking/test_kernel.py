@@ -6,7 +6,7 @@ import nbformat
 import pytest
 from nbgrader.utils import determine_grade
 
-from grader.notebook_client import notebook_client
+from grader.course_files.notebook_client import notebook_client
 from tests.patience import PATIENCE
 
 SETUP = """

@@ -33,7 +33,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from grader.course_notebooks import FIRST, course_order
+from grader.course_files.course_notebooks import FIRST, course_order
 from grader.diagnosis.fault import Fault
 from tests.exercises.score_tables import page, with_pages
 from tests.exercises.seeds import exercise_of, right_nodes

@@ -62,8 +62,8 @@ def test_the_page_is_what_the_tables_give():
 
 
 def test_students_get_neither_tables_nor_page():
+    from grader.course_files.work_folder import student_files
     from grader.marking.release.handout import contents
-    from grader.work_folder import student_files
 
     given = {*contents(ROOT), *(path.relative_to(ROOT).as_posix() for path in student_files(ROOT))}
     assert not [name for name in given if re.search(r"(^|/)rules/|RULES\.md", name)]

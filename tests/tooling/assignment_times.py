@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.course_notebooks import TIME
+from grader.course_files.course_notebooks import TIME
 from tests.tooling.lesson_times import BUILD, LINES, WORD, WORDS
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.course_notebooks import TIME, course_order
+from grader.course_files.course_notebooks import TIME, course_order
 
 ROOT = Path(__file__).parents[2]
 LIMIT = 90  # minutes

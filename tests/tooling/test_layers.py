@@ -21,7 +21,7 @@ JUPYTER = re.compile(r"IPython|ipykernel|ipywidgets|anywidget|jupyter\w*|nbclien
 PICTURES = re.compile(r"matplotlib")
 NBGRADER = re.compile(r"nbgrader")
 GRADER = re.compile(r"grader")
-JUPYTER_LAYERS = ("sim/view/", "grader/score.py", "grader/notebook_client.py", "grader/marking/")
+JUPYTER_LAYERS = ("sim/view/", "grader/score.py", "grader/course_files/notebook_client.py", "grader/marking/")
 
 # Names of packages, and the only modules that may import them. A path that ends with / is a whole folder.
 LAYERS = [

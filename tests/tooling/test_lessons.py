@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.course_notebooks import part_of
+from grader.course_files.course_notebooks import part_of
 from tests.exercises.score_tables import graded_exercises, notebook_run
 
 ROOT = Path(__file__).parents[2]

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
-from grader.local_time import format_local
+from grader.course_files.local_time import format_local
 from grader.marking.errors import CourseError
 from grader.marking.gradebook import due_dates
 from grader.marking.gradebook.book import Book

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from grader.local_time import format_local
+from grader.course_files.local_time import format_local
 from grader.marking.command.student_pages import update_pages
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book

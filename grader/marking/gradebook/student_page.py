@@ -16,7 +16,7 @@ from nbgrader.api import Gradebook, MissingEntry
 from pygments.formatters import HtmlFormatter
 from traitlets.config import Config
 
-from grader.local_time import format_local
+from grader.course_files.local_time import format_local
 from grader.marking.lateness import DAY_S
 from grader.marking.outputs import FOR_INSTRUCTOR
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from symtable import SymbolTable, symtable
 
-from grader.course_notebooks import DISPLAYS
+from grader.course_files.course_notebooks import DISPLAYS
 
 ROS2 = re.compile(r"^%ros2\b.*$", re.M)  # shows the last run
 # A cell with one of these may use a name that is not in its source.

@@ -16,11 +16,11 @@ from pathlib import Path
 
 import nbformat
 
+from grader.course_files.notebook_format import normalized
+from grader.course_files.work_folder import assistant_files, student_files
 from grader.marking.errors import CommandFailed
 from grader.marking.judge.personal_release import has_variants
 from grader.marking.release.make_exercises import differences
-from grader.notebook_format import normalized
-from grader.work_folder import assistant_files, student_files
 
 NAME = "ros2-course"
 # Included besides lessons and exercises; parts of it are excluded below.

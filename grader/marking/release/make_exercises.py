@@ -15,11 +15,11 @@ import nbformat
 from nbgrader.converters import GenerateAssignment
 from nbgrader.utils import capture_log, temp_attrs
 
+from grader.course_files.notebook_format import normalize
 from grader.marking.errors import CommandFailed, MarkingError
 from grader.marking.gradebook.course import Course
 from grader.marking.release.nbgrader_command import assignments, failure
 from grader.marking.release.own_choice import FILE, choose, read_choice
-from grader.notebook_format import normalize
 
 ASIDE = ".exercises.part"
 REASONS = {  # what nbgrader's log has, and what to do

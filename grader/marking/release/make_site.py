@@ -16,13 +16,13 @@ from pathlib import Path, PurePosixPath
 import nbformat
 from nbformat import NotebookNode
 
-from grader.course_notebooks import BRIDGE, course_order
+from grader.course_files.course_notebooks import BRIDGE, course_order
+from grader.course_files.work_folder import student_files
 from grader.marking.errors import CommandFailed
 from grader.marking.release.service_notebooks import add_service_link, published
 from grader.marking.release.site_home import home_page
 from grader.marking.release.site_pages import executed_pages
 from grader.marking.release.site_search import search_script
-from grader.work_folder import student_files
 
 SETTINGS = Path(__file__).with_name("sphinx_settings.py")
 STYLE = Path(__file__).with_name("site.css")

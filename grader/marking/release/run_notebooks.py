@@ -15,7 +15,7 @@ from nbclient.exceptions import DeadKernelError
 from nbformat import NotebookNode
 from nbgrader.utils import determine_grade, is_grade
 
-from grader.notebook_client import notebook_client
+from grader.course_files.notebook_client import notebook_client
 
 # The start page lists exercises; page 10 of the bridge runs the navigator of lesson 6b.
 READ_BY_OTHERS = "exercises", "06_navigator"

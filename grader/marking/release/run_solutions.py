@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
+from grader.course_files.notebook_format import FOLDERS, InvalidNotebook, find_notebooks
 from grader.marking.release.run_notebooks import ExecutedNotebook, TestCellMark, run_notebooks
-from grader.notebook_format import FOLDERS, InvalidNotebook, find_notebooks
 
 RUNS_TO_END = "runs to its end"  # the one test of a notebook without points
 

@@ -13,8 +13,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from grader.notebook_format import normalized
-from grader.work_folder import student_files
+from grader.course_files.notebook_format import normalized
+from grader.course_files.work_folder import student_files
 
 COLAB = "https://colab.research.google.com/github"
 GITHUB_ADDRESS = "https://github.com/"

@@ -9,9 +9,9 @@ import urllib.parse
 from importlib.resources import files
 from pathlib import Path
 
-from grader.course_map import course_map
-from grader.course_notebooks import CHAPTERS, Chapter, CoursePart, read_text
-from grader.course_page import SAFE
+from grader.course_files.course_map import course_map
+from grader.course_files.course_notebooks import CHAPTERS, Chapter, CoursePart, read_text
+from grader.course_files.course_page import SAFE
 from grader.exercises import navigator, nodes
 from sim import Recording, run
 from sim.course_folders import COURSE

@@ -13,7 +13,7 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-from grader.course_notebooks import read_text
+from grader.course_files.course_notebooks import read_text
 from grader.marking.errors import CommandFailed
 from grader.marking.release import run_notebooks, site_sliders
 from sim.course_folders import COURSE

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from grader.course_notebooks import read_text
+from grader.course_files.course_notebooks import read_text
 
 TERM = re.compile(r"^\| \*\*(.+?)\*\* \|.*\| ([\d, ]+) \|$", re.MULTILINE)  # a row of glossary.md
 _FORMULAS, _RULES = r"\$\$.*?\$\$|\$[^$\n]+\$", r"^[|\s:-]*--[|\s:-]*$"  # the rules are of tables

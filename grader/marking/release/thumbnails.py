@@ -17,7 +17,7 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-from grader.course_notebooks import course_order, picture_of
+from grader.course_files.course_notebooks import course_order, picture_of
 from grader.marking.errors import CommandFailed
 from grader.marking.release.run_notebooks import execute_notebook
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from nbformat import NotebookNode
 
+from grader.course_files.notebook_format import cell_ids
 from grader.marking.errors import Unusable
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.cell_matching import Match, match_cells
@@ -21,7 +22,6 @@ from grader.marking.submission.quoting import list_names
 from grader.marking.submission.repair_notes import FLAGS, REPAIRS, Notes
 from grader.marking.submission.submitted_files import SubmittedFiles
 from grader.marking.submission.submitted_notebooks import read_notebooks
-from grader.notebook_format import cell_ids
 
 ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"
 VARIANT = re.compile(r"\.variant\(\d+\)")  # in the test cells of a student's own release

@@ -61,7 +61,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 
 def lab(options: argparse.Namespace) -> int:
     """Open the course in JupyterLab, which updates the notebooks first; returns only on an error."""
-    from grader.work_folder import CHOSEN  # imported here because without rclpy it can't be
+    from grader.course_files.work_folder import CHOSEN  # imported here because without rclpy it can't be
 
     if not _has("jupyterlab"):
         print(NO_LAB.format(package=PACKAGE, folder=options.folder), file=sys.stderr)
@@ -95,7 +95,7 @@ def copy(options: argparse.Namespace) -> int:
 
 
 def _copy_to(folder: Path) -> None:
-    from grader.work_folder import CHOSEN, update_work_folder
+    from grader.course_files.work_folder import CHOSEN, update_work_folder
 
     os.environ[CHOSEN] = str(folder.absolute())
     for sentence in update_work_folder(FILES):

@@ -9,7 +9,7 @@ from grader.checks import accepts, cancels, finishes, gives_feedback, rejects, s
 from sim import run
 from sim.evidence import Endpoint, Goal, Message
 from sim.ros.messages.codec import encode
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 from tests.students import service_misfits as misfits
 from tests.students.engine import actions, goals
 

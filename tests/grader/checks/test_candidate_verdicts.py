@@ -5,7 +5,7 @@ from std_msgs.msg import Float64, String
 
 from grader import Missed
 from grader.checks.candidate_verdicts import candidate_verdicts, own_verdict
-from tests.grader.recordings import exchange
+from tests.sim.recordings import exchange
 
 TRUTH = [(True, "right"), (False, "wrong")]
 

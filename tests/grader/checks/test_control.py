@@ -17,7 +17,7 @@ from grader.checks import (
 )
 from sim import World
 from sim.evidence import Pose
-from tests.grader.recordings import published, recording
+from tests.sim.recordings import published, recording
 
 NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state arrives."
 WRONG_WAY = "The cart is pushed the wrong way from the start. A positive angle means that the pole leans to the left: the cart has to get under it, to the left, which takes a negative effort."

@@ -5,7 +5,7 @@ import pytest
 from grader import Missed
 from grader.checks.ends import declared
 from sim.evidence import Endpoint, Graph
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 
 PAIRS = (
     ("publisher", "subscription", "topic"),

@@ -10,8 +10,8 @@ from tf2_msgs.msg import TFMessage
 from grader import Missed
 from grader.checks.frames import FULL_TURN, Broadcast, between, broadcasts
 from grader.geometry import Pose2D
-from tests.grader.recordings import exchange
-from tests.grader.warehouse import stamp
+from tests.sim.recordings import exchange
+from tests.sim.warehouse import stamp
 
 
 def transform(parent, child, *, x=0.0, yaw=0.0, length=1.0, at=0.0):

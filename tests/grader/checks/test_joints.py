@@ -11,7 +11,7 @@ from grader.checks import commands_within, draws, keeps_off, tip_at, tip_path
 from grader.checks.joints import JointLimits, described_limits
 from sim import World
 from sim.evidence import Pose
-from tests.grader.recordings import exchange, published, recording
+from tests.sim.recordings import exchange, published, recording
 
 LINE = [(0.5, 0.3), (0.7, 0.3)]
 

@@ -6,7 +6,7 @@ from std_msgs.msg import Float32, String
 from grader import Missed
 from grader.checks import answers, come_every, logs
 from sim.evidence import CallbackRun, Graph, TimerInfo
-from tests.grader.recordings import logged, published, recording
+from tests.sim.recordings import logged, published, recording
 
 
 def missed(function, *arguments, **options):

@@ -17,7 +17,7 @@ from grader.checks.motion import (
 )
 from sim import run
 from sim.evidence import Pose
-from tests.grader.recordings import driven, published, recording
+from tests.sim.recordings import driven, published, recording
 from tests.students import flaws
 
 LATER = (3.0, 4.0, 3.0, 1.0, "left", "box")

@@ -5,7 +5,7 @@ from grader.checks import has_timer, named, no_errors
 from grader.checks.motion import last_pose
 from sim import run
 from sim.evidence import Graph, TimerInfo
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 from tests.students import misfits, mistakes
 
 

@@ -6,7 +6,7 @@ from grader.checks import nearest_person
 from sim import World, run
 from sim.evidence import Pose
 from sim.world import Person
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 from tests.students.engine.drivers import Driver
 
 FARTHER = Person(((2.0, 3.0), (2.0, 3.2)), speed=0.1)

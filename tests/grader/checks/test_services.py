@@ -16,7 +16,7 @@ from grader.checks.services import (
 from sim import run
 from sim.evidence import Call, Endpoint, Graph
 from sim.ros.messages.codec import encode
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 from tests.students import service_misfits as misfits
 from tests.students.engine import callers, services
 

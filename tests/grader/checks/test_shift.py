@@ -13,8 +13,8 @@ from sim import Process, Recording, World, run
 from sim.evidence import Endpoint
 from sim.world import Box, Circle, Contact, MovableBox, OtherRobot, Person, WarehouseModel
 from tests.bench.capstone import work
-from tests.grader.warehouse import order
-from tests.grader.warehouse import worked as recorded
+from tests.sim.warehouse import order
+from tests.sim.warehouse import worked as recorded
 
 HALL = World(
     *("hall", "", (-2, -2, 4, 2), (0, 0, 0)),

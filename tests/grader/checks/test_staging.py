@@ -13,7 +13,7 @@ from grader.checks.staging import LONGEST_LINE, evidence_of
 from grader.diagnosis.owners import Intrusion, intrusions, two_owners
 from sim import run
 from sim.evidence import Call, LogLine
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 from tests.students.engine import actions
 
 

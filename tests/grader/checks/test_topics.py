@@ -11,7 +11,7 @@ from grader.checks.topics import keeps_pace, longest_pause
 from sim import run
 from sim.evidence import Ended, Endpoint, Graph
 from tests.exercises.topics.temperature import students as temperature
-from tests.grader.recordings import published, recording
+from tests.sim.recordings import published, recording
 from tests.students import misfits
 
 

@@ -5,7 +5,7 @@ from geometry_msgs.msg import Twist, Vector3
 
 from grader.checks.twists import SAME, speeds, speeds_text
 from grader.responses import same
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 
 def test_the_speeds_of_a_command_are_those_that_a_robot_on_wheels_has():

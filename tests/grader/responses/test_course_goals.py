@@ -19,7 +19,7 @@ from grader.responses.course_goals import (
 )
 from sim.evidence import Endpoint, Goal, Graph
 from sim.ros.messages.codec import encode
-from tests.grader.recordings import logged, recording
+from tests.sim.recordings import logged, recording
 
 SERVER = Endpoint("action server", "/server", FIBONACCI, FIBONACCI_TYPE, {})
 GOAL = "the goal (order=4) at 1 s"

@@ -4,7 +4,7 @@ from grader import Score
 from grader.checks.verdicts import SPOOFED_TOPICS, Verdict
 from grader.marking.judge.score_outputs import spoofed_topics, unused_offers
 from sim.evidence import Endpoint, Graph
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 
 
 def test_a_topic_with_two_owners_is_flagged():

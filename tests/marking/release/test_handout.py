@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from traitlets.config import PyFileConfigLoader
 
+from grader.course_files.work_folder import assistant_files, student_files
 from grader.marking.release.handout import INCLUDED, NAME, contents, main, makefile, write_folder, write_zip
-from grader.work_folder import assistant_files, student_files
 from tests.marking.tiny import ROOT
 
 GRADE = """

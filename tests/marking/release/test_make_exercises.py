@@ -6,11 +6,11 @@ import nbformat
 import pytest
 from nbgrader.api import Gradebook
 
+from grader.course_files.notebook_format import normalize
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences, main, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.secret import ACCEPTED
-from grader.notebook_format import normalize
 from tests.marking.tiny import ROOT, grade
 
 HIDDEN = re.compile(r"^\s*### BEGIN (SOLUTION|HIDDEN TESTS)$(.*?)^\s*### END \1$", re.M | re.S)

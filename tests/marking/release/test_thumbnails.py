@@ -5,7 +5,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from grader.course_notebooks import picture_of
+from grader.course_files.course_notebooks import picture_of
 from grader.marking.errors import CommandFailed
 from grader.marking.release import thumbnails
 

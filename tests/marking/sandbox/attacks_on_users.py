@@ -96,7 +96,7 @@ def test_what_stays_with_the_judge_is_imported_before_and_closed(make_commanded)
     with sandbox(preload=["grader.geometry"], hidden=FOLDERS) as box:
         commanded = make_commanded(box)
         assert commanded.ask("from grader.geometry import Pose2D; answer = Pose2D.__name__") == "Pose2D"
-        assert commanded.ask("import grader.notebook_format; answer = 'open'") == "open"
+        assert commanded.ask("import grader.course_files.notebook_format; answer = 'open'") == "open"
         for folder in FOLDERS:
             module = next(folder.rglob("__init__.py"))
             assert commanded.ask(f"open({str(module)!r})") == f"{CLOSED}{str(module)!r}"

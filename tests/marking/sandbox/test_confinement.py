@@ -88,12 +88,12 @@ def test_the_course_itself_may_lie_in_tmp(tmp_path):
         from tests.marking.sandbox.commanded import Commanded, sandbox
         with sandbox() as box:
             commanded = Commanded(box)
-            print(commanded.ask("import grader.notebook_format; answer = grader.notebook_format.__file__"))
+            print(commanded.ask("import grader.typos; answer = grader.typos.__file__"))
             commanded.leave()
     """
     command = [sys.executable, "-c", textwrap.dedent(attempt)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-    assert done.stdout == f"{tmp_path}/grader/notebook_format.py\n", done.stderr
+    assert done.stdout == f"{tmp_path}/grader/typos.py\n", done.stderr
 
 
 def test_python_may_be_called_by_links_from_anywhere(tmp_path):

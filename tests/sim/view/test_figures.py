@@ -15,9 +15,9 @@ from std_msgs.msg import Float64, String
 from sim import Recording, World, run
 from sim.evidence import CallbackError, Pose
 from sim.view import animate, plot_path, plot_signal, plot_topics, png
-from tests.grader import recordings
-from tests.grader.recordings import published
 from tests.patience import PATIENCE
+from tests.sim import recordings
+from tests.sim.recordings import published
 from tests.sim.view.worlds import CROWDED
 from tests.students import misfits
 from tests.students.engine import actions, goals, services

@@ -20,7 +20,7 @@ from sim.view.interactive import plot_script, plot_source
 from sim.view.packing import inflated
 from sim.view.plot_data import FEW, POINTS, series
 from sim.world.machines.cart_pole import Push
-from tests.grader.recordings import driven, published, recording
+from tests.sim.recordings import driven, published, recording
 from tests.students import misfits
 
 

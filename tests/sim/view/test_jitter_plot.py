@@ -2,7 +2,7 @@ import pytest
 from std_msgs.msg import String
 
 from sim.view import plot_jitter, png
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 
 def ticks(*moments):

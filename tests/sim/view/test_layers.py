@@ -8,7 +8,7 @@ from nav_msgs.msg import OccupancyGrid, Path
 
 from sim.view.layer_kinds import CELLS
 from sim.view.layers import NewestLayers, layers_of
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 
 def grid(width=2, height=2, data=(0, 0, -1, 100), frame="map"):

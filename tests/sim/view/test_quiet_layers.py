@@ -17,7 +17,7 @@ from sim import World, run
 from sim.view.frame_tree import FrameTree, flat
 from sim.view.layers import NewestLayers, layers_of, quiet_layers
 from sim.view.live_view import LiveView
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 
 def turned(message, x, y, yaw):

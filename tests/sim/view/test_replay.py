@@ -18,7 +18,7 @@ from sim.view import plot_graph, replay, replay_data
 from sim.view.interactive import PLAYER_SCRIPT, PLAYER_SOURCE
 from sim.world import Contact
 from tests.bench.avoider import Avoider
-from tests.grader.recordings import driven, recording
+from tests.sim.recordings import driven, recording
 from tests.sim.view.worlds import CROWDED
 from tests.students import misfits
 

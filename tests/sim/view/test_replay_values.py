@@ -16,8 +16,8 @@ from sim.view.last_event import last_event
 from sim.view.packing import inflated
 from sim.view.replay_data import pack
 from sim.view.replay_values import MESSAGES, inspected, strip_of
-from tests.grader.recordings import driven, published, recording
-from tests.grader.warehouse import order, worked
+from tests.sim.recordings import driven, published, recording
+from tests.sim.warehouse import order, worked
 
 
 class Stops(Node):

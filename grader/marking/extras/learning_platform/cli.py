@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from grader.local_time import local_zone
+from grader.course_files.local_time import local_zone
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError
 from grader.marking.extras.learning_platform.collect import assignment_of

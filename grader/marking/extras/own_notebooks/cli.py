@@ -8,6 +8,7 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
+from grader.course_files.notebook_format import normalized
 from grader.marking import secret
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError, NoVariants
@@ -22,7 +23,6 @@ from grader.marking.judge.personal_release import (
 )
 from grader.marking.progress_line import printable
 from grader.marking.submission.assignment_release import SUFFIX, Release, load_release
-from grader.notebook_format import normalized
 from grader.seeds import secret_of_student
 
 DESCRIPTION = """Write each student's own notebooks of an assignment with variants.

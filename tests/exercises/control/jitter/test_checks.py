@@ -9,7 +9,7 @@ from std_msgs.msg import Float64, Header, Int32
 from grader.checks import judge
 from grader.exercises.control import jitter
 from sim.nanoseconds import EPOCH, SECOND
-from tests.grader.recordings import exchange
+from tests.sim.recordings import exchange
 
 LATE = [0.002, 0.004, 0.012, 0.0101, 0.0099, 0.003, 0.015, 0.002, 0.001, 0.006, 0.004, 0.013]  # s
 MEASURED = [0.02 * (n + 1) for n in range(12)]

@@ -10,7 +10,7 @@ from rclpy.node import Node
 from grader.exercises.delivery.deliver.questions import questions
 from sim import Recording, World, run
 from sim.world import BatteryModel, Person, WarehouseModel
-from tests.grader.warehouse import HALL, drive, order, worked
+from tests.sim.warehouse import HALL, drive, order, worked
 
 DESK = (1.5, 0.0, 0.0)
 STAYS, FORWARD, BACK = (8, 0, 0), (3, 0.5, 0), (3, -0.5, 0)  # s, m/s, rad/s

@@ -6,7 +6,7 @@ from std_msgs.msg import Float64
 from grader.checks import Missed
 from grader.exercises.joints.seven import ends_by_itself, seven
 from sim.evidence import CallbackError
-from tests.grader.recordings import published
+from tests.sim.recordings import published
 
 
 def test_a_program_that_ends_by_an_error_does_not_end_by_itself():

@@ -24,7 +24,7 @@ from sim.evidence import Goal, Message
 from sim.evidence import Pose as TruePose
 from sim.ros.messages.codec import encode, type_name
 from sim.world import Contact
-from tests.grader.recordings import recording
+from tests.sim.recordings import recording
 
 WALL = ((2.0, 0.0), (2.0, 1.5))
 HALL = World("hall", "", (0, 0, 4, 2), (0.5, 0.5, 0.0), goal=(3.5, 0.5), walls=(WALL,))

@@ -7,7 +7,7 @@ from geometry_msgs.msg import Twist, Vector3
 
 from grader.checks import judge
 from grader.exercises.safety import smooth
-from tests.grader.recordings import exchange
+from tests.sim.recordings import exchange
 
 TICKS = [0.05 * (n + 1) for n in range(40)]  # s
 

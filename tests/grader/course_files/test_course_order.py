@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from grader import course_map
-from grader.course_notebooks import BRIDGE
+from grader.course_files.course_notebooks import BRIDGE
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CHAPTERS = course_map(ROOT / "course").chapters
 NOTEBOOKS = [book for chapter in CHAPTERS for part in chapter.parts for book in part.notebooks if not book.most]
 LESSONS = [book.number for book in NOTEBOOKS if book.path.parent.name != BRIDGE]

@@ -12,7 +12,7 @@ from sim import World
 from sim.evidence import Pose
 from sim.nanoseconds import EPOCH, SECOND
 from sim.world import WarehouseModel
-from tests.grader.recordings import exchange
+from tests.sim.recordings import exchange
 
 HALL = World("hall", "", (-9, -9, 9, 9), (0, 0, 0), warehouse=WarehouseModel(((0, 0, 0),), (1.5, 0, 0)))
 STATUS = {
@@ -34,9 +34,8 @@ def order(id, *, patience=100.0, robot="", **stamps):
     """The messages of an order that reached each of these statuses at a time; `picked_up` as in a message."""
     begin = stamps["waiting"]
     times = {"header": Header(stamp=stamp(begin)), "deadline": stamp(begin + patience)}
-    return [
-        (at, Order(id=id, status=STATUS[name.replace("_", " ")], robot=robot, **times)) for name, at in stamps.items()
-    ]
+    states = [(at, STATUS[name.replace("_", " ")]) for name, at in stamps.items()]
+    return [(at, Order(id=id, status=status, robot=robot, **times)) for at, status in states]
 
 
 def drive(*corners, period=0.1):
@@ -52,9 +51,11 @@ def drive(*corners, period=0.1):
 
 def worked(*orders, path=(), battery=(), seconds=30.0, world=HALL, **evidence):
     """A run in a warehouse. battery: pairs of stamp and share."""
-    streams = [("/orders", sorted(itertools.chain(*orders), key=lambda pair: pair[0]), True)] if orders else []
+    rows = sorted(itertools.chain(*orders), key=lambda pair: pair[0])
+    streams = [("/orders", rows, True)] if orders else []
     if battery:
-        streams.append(("/battery_state", [(at, BatteryState(percentage=share)) for at, share in battery], True))
+        states = [(at, BatteryState(percentage=share)) for at, share in battery]
+        streams.append(("/battery_state", states, True))
     run = exchange(*streams, seconds=seconds)
     run.world, run.path = world, list(path)
     for name, value in evidence.items():

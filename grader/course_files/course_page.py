@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from grader.course_notebooks import BRIDGE, Chapter, CoursePart, Notebook
+from grader.course_files.course_notebooks import BRIDGE, Chapter, CoursePart, Notebook
 from grader.page import format_points
 
 RING = 100  # length of the ring, so that it can be given in percent
@@ -37,7 +37,7 @@ def course_page(
     with its new version. updates: a sentence for each notebook that the last update changed. name, address:
     give the path of a file in the course, and its relative URL.
     """
-    style = files("grader").joinpath("course_page.css").read_text(encoding="utf-8")
+    style = files("grader.course_files").joinpath("course_page.css").read_text(encoding="utf-8")
     shown = "".join(_chapter(chapter, following, address) for chapter in chapters)
     return (
         f'<section class="ros2-course-map" aria-label="The course"><style>{style}</style>'

@@ -3,9 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.notebook_format import InvalidNotebook, cell_ids, main, normalized
+from grader.course_files.notebook_format import InvalidNotebook, cell_ids, main, normalized
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def text_of(*cells: dict, **changes: object) -> str:

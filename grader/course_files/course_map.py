@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
-from grader.course_notebooks import (
+from grader.course_files.course_notebooks import (
     BRIDGE,
     CHAPTERS,
     DUE,
@@ -28,8 +28,8 @@ from grader.course_notebooks import (
     read_offers,
     read_text,
 )
-from grader.course_page import course_page
-from grader.local_time import format_local
+from grader.course_files.course_page import course_page
+from grader.course_files.local_time import format_local
 from grader.page import format_points
 
 REST = "More"  # title of the chapter of what chapters.json does not list

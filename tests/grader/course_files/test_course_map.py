@@ -7,7 +7,7 @@ import pytest
 
 from grader import course_map
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 POINTS = {"nbgrader": {"grade": True, "points": 8}}
 
 

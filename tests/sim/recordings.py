@@ -35,8 +35,9 @@ def driven(points, *, world="yard", contacts=(), **evidence):
 
 
 def exchange(*streams, seconds=10.0):
-    """A run in which the course's node and the student's publish, each stream given as a topic, pairs of stamp
-    and message, and whether they are the course's.
+    """A run in which the course's node and the student's publish.
+
+    Each stream is given as a topic, pairs of stamp and message, and whether they are the course's.
     """
     messages, ends = [], []
     for topic, pairs, from_course in streams:
@@ -44,6 +45,6 @@ def exchange(*streams, seconds=10.0):
         other = "/talker" if from_course else "/course"
         ends.append(Endpoint("publisher", node, topic, type, {}, from_course))
         ends.append(Endpoint("subscription", other, topic, type, {}, not from_course))
-        messages += [Message(stamp, topic, type, node, encode(message), from_course) for stamp, message in pairs]
+        messages += [Message(at, topic, type, node, encode(message), from_course) for at, message in pairs]
     messages.sort(key=lambda row: row.stamp)
     return recording(seconds=seconds, published=messages, graph=Graph(["/talker", "/course"], ends))

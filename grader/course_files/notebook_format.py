@@ -1,6 +1,6 @@
 """Normalizes notebooks, so that git diffs show only the author's changes.
 
-    python -m grader.notebook_format [--check] [notebook or folder ...]      default: course solutions
+    python -m grader.course_files.notebook_format [--check] [FILE or FOLDER ...]    default: course solutions
 
 A normalized notebook has no outputs, execution counts or widget state, only relevant metadata, and an id on
 every cell. Existing ids are kept, so inserting or moving a cell changes no other cell.
@@ -122,7 +122,7 @@ def _difference(before: str, after: str) -> list[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    command = "python -m grader.notebook_format"
+    command = "python -m grader.course_files.notebook_format"
     parser = argparse.ArgumentParser(command, description="Keep notebooks in one form.")
     parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders")
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if it should")

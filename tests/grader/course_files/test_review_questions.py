@@ -3,7 +3,7 @@ import json
 
 import pytest
 
-from grader.review_questions import review_html, review_questions
+from grader.course_files.review_questions import review_html, review_questions
 
 TODAY = datetime.date(2026, 3, 20)
 ANSWERS = {"a": "yes, `x`", "b": "no"}

@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from grader.notebook_format import InvalidNotebook, normalized
+from grader.course_files.notebook_format import InvalidNotebook, normalized
 
 CHOSEN = "ROS2_COURSE_WORK"  # an environment variable: the folder that the student chose
 FOLDER = "work"

@@ -4,10 +4,10 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from grader import work_folder
-from grader.work_folder import student_files, update_work_folder
+from grader.course_files import work_folder
+from grader.course_files.work_folder import student_files, update_work_folder
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 LESSON = "course/01_nodes/lesson.ipynb"
 
 

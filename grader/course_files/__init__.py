@@ -1,0 +1,1 @@
+"""The course as files: its notebooks, their form, progress, the start page, and a student's copy."""
