@@ -56,7 +56,7 @@ def cancel_not_handled(recording: Recording) -> str:
             continue
         if noticed is None and recording.ended.stamp - asked < _LAST_MOMENT:
             continue
-        if not goal.over or (noticed is not None and goal.at(goal.status) <= noticed):
+        if not goal.over or (noticed is not None and _ended_at(goal, recording) <= noticed):
             held = _cancel_callback(recording, goal, asked)
             if held > 0.0:
                 return (
@@ -88,11 +88,16 @@ def cancel_refused(recording: Recording) -> str:
     return ""
 
 
+def _ended_at(goal: Goal, recording: Recording) -> float:
+    """When a goal ended; the end of the run for one that did not."""
+    stamp = goal.at(goal.status) if goal.over else None
+    return recording.ended.stamp if stamp is None else stamp
+
+
 def _went_on(goal: Goal, agreed: float, recording: Recording) -> bool:
     """Return whether a server had time to see that its goal is to be canceled: it looks once in each step."""
     steps = [after.stamp - before.stamp for before, after in itertools.pairwise(goal.feedback)]
-    ended = goal.at(goal.status) if goal.over else recording.ended.stamp
-    return ended - agreed > max([_ONE_STEP, *steps]) + 1e-6
+    return _ended_at(goal, recording) - agreed > max([_ONE_STEP, *steps]) + 1e-6
 
 
 def _cancel_callback(recording: Recording, goal: Goal, requested: float) -> float:

@@ -54,7 +54,7 @@ def _changeable(node: StudentNode, callback: str, use: AttributeUse) -> Iterator
 
 
 def _is_stale(method: ast.AsyncFunctionDef, name: str, node: StudentNode) -> bool:
-    first, last = method.lineno, method.end_lineno
+    first, last = method.lineno, method.end_lineno or method.lineno
     if any(not first <= getattr(part, "lineno", first) <= last for part in ast.walk(method)):
         return False  # with the body of an overridden method in it, places are in no order
     tests = [
@@ -65,7 +65,7 @@ def _is_stale(method: ast.AsyncFunctionDef, name: str, node: StudentNode) -> boo
     retests = [test.place for test in tests]
     # After its end, the condition of a loop has been tested again.
     retests += [
-        (test.statement.end_lineno, test.statement.end_col_offset)
+        (test.statement.end_lineno or 0, test.statement.end_col_offset or 0)
         for test in tests
         if isinstance(test.statement, ast.While)
     ]

@@ -49,7 +49,7 @@ def both_orders(recording: Recording) -> str:
 
 
 def _all_taken(node: StudentNode) -> list[Taken]:
-    found = {}
+    found: dict[Taken, None] = {}
     for name, method in node.methods.items():
         found |= dict.fromkeys(_taken(method.body, name, [], node.methods, frozenset({name})))
     return list(found)

@@ -113,10 +113,10 @@ def _registered(owner: str, methods: Methods) -> dict[str, Registration]:
                 continue
             named = {keyword.arg: keyword.value for keyword in call.keywords}
             topic = named.get("topic", call.args[1] if len(call.args) > 1 else None)
-            known = kind != "timer" and isinstance(topic, ast.Constant)
+            known = str(topic.value) if kind != "timer" and isinstance(topic, ast.Constant) else ""
             group = ast.unparse(named["callback_group"]) if "callback_group" in named else ""
             for value in (*call.args, *named.values()):
                 if own_attribute(value) in methods:
-                    row = Registration(kind, str(topic.value) if known else "", group)
+                    row = Registration(kind, known, group)
                     found[f"{owner}.{own_attribute(value)}"] = row
     return found

@@ -34,11 +34,11 @@ def other_instant(recording: Recording) -> str:
     for node in student_nodes(recording):
         for user in node.registered:
             for name, setter in _stored(node, user):
-                ends = node.subscription(setter), node.subscription(user)
-                if None not in ends and ends[0].name != ends[1].name:
-                    mismatch = _mismatch(recording, node, (setter, user), ends)
+                stored, own = node.subscription(setter), node.subscription(user)
+                if stored and own and stored.name != own.name:
+                    mismatch = _mismatch(recording, node, (setter, user), (stored, own))
                     if mismatch:
-                        return _other_instant(user, name, ends, mismatch)
+                        return _other_instant(user, name, (stored, own), mismatch)
     return ""
 
 

@@ -88,7 +88,8 @@ class CellHistory:
 
     def objects_of(self, things: Iterable[Any]) -> list[Any]:
         """These objects, and those that they look up by a name of the notebook, directly or indirectly."""
-        found, waiting = [], list(things)
+        found: list[Any] = []
+        waiting = list(things)
         while waiting:
             thing = waiting.pop(0)
             if not any(thing is other for other in found):

@@ -29,9 +29,9 @@ def none_origin(error: BaseException, is_library: Callable[[str], bool]) -> str:
     if not isinstance(error, AttributeError | TypeError) or _COMPLAINT not in str(error):
         return ""
     at = _innermost(error.__traceback__, is_library)
-    tree = None if at is None else _tree(at.tb_frame.f_code.co_filename)
-    failed = None if tree is None else _failed_part(tree, at)
-    if failed is None:
+    tree = at and _tree(at.tb_frame.f_code.co_filename)
+    failed = at and tree and _failed_part(tree, at)
+    if not (at and tree and failed):
         return ""
     scope = _enclosing(tree, failed) or tree
     of_result = at.tb_next is None and re.search(_OF_A_RESULT, str(error)) is not None
@@ -52,7 +52,7 @@ def _sentence(call: ast.Call, frame: FrameType, is_library: Callable[[str], bool
     function = _value(call.func, frame)
     code = getattr(inspect.unwrap(function) if callable(function) else None, "__code__", None)
     tree = function_tree(function) if isinstance(code, CodeType) else None
-    if tree is None:
+    if tree is None or code is None:
         return ""
     own = list(_own_parts(tree))
     given = [part for part in own if isinstance(part, ast.Return) and not _is_none(part.value)]
@@ -125,10 +125,8 @@ def _operands(part: ast.AST, tree: ast.Module, of_result: bool) -> list[ast.expr
         case ast.ListComp() | ast.SetComp() | ast.GeneratorExp() | ast.DictComp():
             return [part.generators[0].iter]
         case ast.Call():
-            given = [
-                each.value if isinstance(each, ast.Starred | ast.keyword) else each
-                for each in (*part.args, *part.keywords)
-            ]
+            given = [each.value if isinstance(each, ast.Starred) else each for each in part.args]
+            given += [each.value for each in part.keywords]
             return [part, *given] if of_result else given
     return [part] if isinstance(part, ast.expr) else []
 
@@ -161,13 +159,14 @@ def _last_assigned(target: ast.expr, scope: ast.AST) -> ast.expr | None:
 def _assigned(target: ast.expr, scope: ast.AST) -> dict[_Place, ast.expr]:
     """All that is assigned to a name or an attribute, by place; a tuple of targets stands for its values."""
     name = ast.unparse(target)
-    found = {}
+    found: dict[_Place, ast.expr] = {}
     for part in ast.walk(scope):
         if isinstance(part, ast.Assign | ast.AnnAssign | ast.NamedExpr) and part.value is not None:
             for each in part.targets if isinstance(part, ast.Assign) else [part.target]:
                 parts = each.elts if isinstance(each, ast.Tuple | ast.List) else [each]
                 if name in map(ast.unparse, parts):
-                    found[part.end_lineno, part.end_col_offset] = part.value if each in parts else each
+                    place = part.end_lineno or 0, part.end_col_offset or 0
+                    found[place] = part.value if each in parts else each
     return found
 
 

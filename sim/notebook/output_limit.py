@@ -90,7 +90,7 @@ class OutputLimit:
 
     def __init__(self, shell: Any) -> None:
         self._cells: dict[str, CellOutput] = {}
-        self._last = sys.stdout  # the stream that showed or hid something last
+        self._last: Any = sys.stdout  # the stream that showed or hid something last
         self._limit_stream(sys.stdout)
         self._limit_stream(sys.stderr)
         self._limit_displays(shell.display_pub)

@@ -52,7 +52,8 @@ def after_cell(clean: Callable[[], None]) -> None:
 
 def _program(node: Any) -> tuple[str, str]:
     """The outermost function of the notebook, to be run instead, and its call in the cell."""
-    functions, frame = [], sys._getframe(1)
+    functions: list[FrameType] = []
+    frame: FrameType | None = sys._getframe(1)
     while frame is not None:
         if _is_of_notebook(frame):
             functions.append(frame)

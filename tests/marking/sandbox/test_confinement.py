@@ -27,7 +27,8 @@ def test_of_the_course_only_its_packages_are_there(commanded):
     there = commanded.ask(f"import os; answer = os.listdir({str(COURSE / 'ros_packages/python')!r})")
     python = COURSE / "ros_packages/python"
     packages = {file.parent.name for file in python.glob("*/__init__.py")}
-    assert {*there} - {"__pycache__", "pyproject.toml"} == packages | {file.name for file in python.glob("*.py")}
+    files = {*there} - {"__pycache__", "pyproject.toml"}
+    assert files == packages | {file.name for file in python.glob("*.py")}
     assert commanded.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]
 
 
