@@ -4,12 +4,14 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from jupyter_client.manager import start_new_kernel
 
-from tests.browser.lab import ROOT
 from tests.patience import PATIENCE
+
+ROOT = Path(__file__).parents[3]
 
 ROBOT = "class Robot(Node):\n    def __init__(self):\n        super().__init__('robot')\n"
 NOT_RUN = (
