@@ -184,6 +184,16 @@ def test_a_copy_for_a_part_has_no_file_of_those_above_it(tmp_path):
     assert not (tmp_path / "grader").exists()
 
 
+def test_a_part_that_is_not_there_is_refused_with_those_that_are(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["parts", "hub"])
+    with pytest.raises(SystemExit):
+        parts.main()
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        ".ci/parts: error: there is no part hub with tests: name one of ros_packages/interfaces, "
+        "ros_packages/python, sim, grader, grader/marking, grader/marking/extras"
+    )
+
+
 @pytest.mark.soak
 def test_each_part_is_a_wheel_and_together_they_have_all_commands(tmp_path):
     """In an environment that has these wheels, and nothing of this folder."""
