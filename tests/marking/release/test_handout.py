@@ -64,8 +64,9 @@ def test_students_get_lessons_starters_the_robot_and_the_checks(handout):
 def test_students_get_no_solution_no_test_no_marking_and_nothing_of_a_class(handout):
     kept_back = ("solutions/", "tests/", "class/", "work/", "jupyter/teach/", ".secret")
     assert [name for name in handout if name.startswith(kept_back)] == []
-    assert {name.split("/")[2] for name in handout if name.startswith("grader/marking/")} == {
-        *("build_process", "extras", "submission", "judge", "sandbox", "student_process"),
+    marking = {name.split("/")[2] for name in handout if name.startswith("grader/marking/")}
+    assert marking - {"extras"} == {
+        *("build_process", "submission", "judge", "sandbox", "student_process"),
         *("__init__.py", "cores.py", "errors.py", "journal.py", "outputs.py", "pool.py", "preload.py"),
         *("progress_line.py", "result.py", "task.py", "page_templates.py", "version.py", "atomic_file.py"),
     }
@@ -118,20 +119,6 @@ def test_a_node_gets_the_same_score_there(folder, tmp_path):
     assert here[:2] == [str(ROOT / "grader/__init__.py"), str(ROOT / "sim/__init__.py")]
     assert there[2] == here[2]
     assert there[2]["points"] == 10
-
-
-def test_of_the_commands_students_have_the_league(folder):
-    def output(*words: str) -> subprocess.CompletedProcess:
-        command = [sys.executable, "-m", "grader", *words]
-        environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'ros_packages/python'}"}
-        return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-
-    usage = "usage: python -m grader COMMAND ...\nCommands, each with --help: league\n"
-    assert (output("mark", "01_nodes").returncode, output("mark", "01_nodes").stderr) == (2, usage)
-    expected = "there is no notebook robot.ipynb"
-    assert output("league", "robot.ipynb", "--assignment", "01_nodes").stderr == f"Not played: {expected}.\n"
-    expected = "only instructors have a class's submissions: name your notebooks"
-    assert output("league").stderr == f"Not played: {expected}.\n"
 
 
 def test_make_lab_there_is_what_it_is_here(folder):
