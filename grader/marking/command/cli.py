@@ -25,7 +25,7 @@ from grader.marking.sandbox.confinement import USER
 from grader.marking.self_check import check_marking
 from grader.marking.task import TaskPool
 from grader.marking.version import course_version
-from grader.plugins import POOLS, plugins
+from grader.plugins import POOLS, plugin
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
@@ -143,7 +143,7 @@ def _open_pool(settings: Settings, secret: str) -> Iterator[TaskPool]:
 
 def _dask_pool() -> Callable[[str, bool, str], AbstractContextManager[TaskPool]]:
     """The pool on other machines, which is an extra. Raises CourseError where there is none."""
-    if not (entry := plugins(POOLS).get("dask")):
+    if not (entry := plugin(POOLS, "dask")):
         raise CourseError(NO_DASK)
     opens: Callable[[str, bool, str], AbstractContextManager[TaskPool]] = entry.load()
     return opens

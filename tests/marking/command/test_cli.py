@@ -15,7 +15,7 @@ from grader.marking.command.cli import main
 from grader.marking.command.mark_class import Settings
 from grader.marking.errors import SandboxMissing
 from grader.marking.gradebook import feedback
-from grader.plugins import COMMANDS, plugins
+from grader.plugins import COMMANDS, plugin_names
 from tests.marking.classroom import ASSIGNMENT, gradebook, result
 from tests.marking.fake_pool import ReadyPool
 from tests.marking.tiny import ROOT
@@ -97,7 +97,7 @@ def test_what_cannot_be_marked_is_reported_in_one_line(command, capsys):
 
 
 def test_several_machines_where_these_are_not_installed(course, monkeypatch, capsys):
-    monkeypatch.setattr(cli, "plugins", lambda group: {})
+    monkeypatch.setattr(cli, "plugin", lambda group, name: None)
     assert main([ASSIGNMENT, "--dask", "tcp://127.0.0.1:1"]) == 1
     expected = "Not marked: several machines are an extra that is not installed here: leave out --dask.\n"
     assert capsys.readouterr().err == expected
@@ -142,7 +142,7 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 
 
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
-    names = sorted(plugins(COMMANDS))
+    names = plugin_names(COMMANDS)
     assert {"due", "mark"} <= {*names}
     usage = f"usage: python -m grader COMMAND ...\nCommands, each with --help: {', '.join(names)}\n"
     assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))

@@ -5,6 +5,7 @@ import signal
 import socket
 import subprocess
 import sys
+import sysconfig
 import tempfile
 from pathlib import Path
 
@@ -209,8 +210,10 @@ def test_the_programs_that_it_started_end_with_it(make_commanded):
 def test_an_interpreter_that_it_starts_finds_all_that_a_build_imports(make_commanded):
     with sandbox(limits=BUILDER) as box:
         commanded = make_commanded(box)
-        packages = {*bubblewrap.PACKAGES} - {"sim", "grader"}  # a build has no use for these two
-        needed = ", ".join((*packages, "launch_process_starters", "build_tools"))
+        # If a .pth file names the course's folder, Landlock doesn't let it be listed; a build needs neither.
+        paths = [file.read_text() for file in Path(sysconfig.get_path("purelib")).glob("*.pth")]
+        hidden = {"sim", "grader"} if str(COURSE) in "\n".join(paths).splitlines() else set()
+        needed = ", ".join(({*bubblewrap.PACKAGES} - hidden) | {"launch_process_starters", "build_tools"})
         command = [sys.executable, "-c", f"import {needed}"]
         options = f"cwd={str(TOOLS)!r}, stderr=subprocess.PIPE, text=True"
         assert commanded.ask(f"import subprocess; answer = subprocess.run({command}, {options}).stderr") == ""

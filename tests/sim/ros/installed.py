@@ -40,9 +40,7 @@ def main(args=None):
     try:
         rclpy.spin(Driver())
     except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
+        pass  # and no try_shutdown(): Ctrl-C shuts down at the same time, and rclpy fails if it is in between
 '''
 SCRIPT = """#!{python}
 import sys
