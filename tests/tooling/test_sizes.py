@@ -24,7 +24,7 @@ BUDGETS = {
     "ros_packages": 11_100,
     "tests": 119_400,
     "tests/exercises": 34_450,
-    "tests/grader": 10_650,
+    "tests/grader": 10_700,
     "tests/marking": 18_250,
     "tests/ros_packages": 3_450,
     "tests/sim": 25_850,
