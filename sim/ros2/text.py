@@ -128,7 +128,7 @@ def _describe_type(value: Any, kind: Any) -> str:
     return f"<sequence type: {name}{bound}, length: {len(value)}>"
 
 
-UNBALANCED = "Each { needs its }, and the whole value is in quotes: \"{linear: {x: 0.5}}\"."
+UNBALANCED = 'Each { needs its }, and the whole value is in quotes: "{linear: {x: 0.5}}".'
 
 
 def read_values(text: str) -> Any:

@@ -11,7 +11,7 @@ LEFT_OUT = {"__pycache__", "node_modules"}
 # Lines of Python that a room may have. Who needs more raises the number, and says why in the commit.
 BUDGETS = {
     "sim": 35_400,
-    "sim/ros": 17_700,
+    "sim/ros": 17_780,
     "sim/ros2": 5_100,
     "sim/view": 3_950,
     "sim/world": 4_300,

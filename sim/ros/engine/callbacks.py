@@ -11,6 +11,7 @@ from rclpy.task import Task
 
 from sim.evidence import UNFINISHED, UNMATCHED
 from sim.nanoseconds import Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.engine.limits import RunLimits
 from sim.ros.engine.unmatched_stamps import unmatched_topics
 from sim.ros.fibers.scheduler import Scheduler
@@ -39,12 +40,12 @@ class TaskState:
     since: Nanoseconds = 0  # when it last made progress
 
 
+TASK_STATE = Attached[TaskState]()
+
+
 def state_of(task: Task) -> TaskState:
     """Return what the run stores with a task."""
-    state = task.__dict__.get("_sim")
-    if state is None:
-        state = task._sim = TaskState()
-    return state
+    return TASK_STATE.find(task) or TASK_STATE.attach(task, TaskState())
 
 
 def is_coroutine_function(function: Any) -> bool:
@@ -143,7 +144,7 @@ class Callbacks:
                 running.group.ending_execution(work.entity)
 
     def _resume(self, waiter: Waiter, work: Work) -> bool:
-        task = work.call
+        task: Any = work.call
         before = _position(task)
         if inspect.iscoroutine(task._handler):
             self._step(task)

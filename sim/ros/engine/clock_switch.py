@@ -6,6 +6,8 @@ import weakref
 
 from rclpy.clock import ClockChange, JumpHandle
 
+from sim.ros.attached import Attached
+
 
 class ClockSwitch:
     """The switch of one clock, and the jump callbacks for its changes. `on`: what it is set to."""
@@ -35,3 +37,6 @@ class ClockSwitch:
         for handle in handles:
             if handle._post_callback is not None:
                 handle._post_callback({"clock_change": change, "delta": 0})
+
+
+CLOCK_SWITCH = Attached[ClockSwitch]()  # of a ROSClock and of a JumpHandle

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.client import Client
 from rclpy.timer import Rate
 
 from sim.evidence import Ended
@@ -12,7 +13,7 @@ from sim.nanoseconds import SECOND
 from sim.ros.engine.awaits import useless_await
 from sim.ros.engine.engine import Engine
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.recorder.records import ActionRecord, ClientRecord
+from sim.ros.recorder.records import CLIENT
 from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
 
@@ -103,7 +104,6 @@ def _pending(engine: Engine, running: RunningCallback) -> list[Any]:
 
 
 def _response_to(client: Any) -> str:
-    record: ClientRecord | ActionRecord = client._sim
-    if isinstance(record, ClientRecord):
-        return f"The response of service {record.service}"
+    if isinstance(client, Client):
+        return f"The response of service {CLIENT.of(client).service}"
     return f"The response of action {client._action_name}"

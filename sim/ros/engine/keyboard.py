@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from typing import TextIO
 
 
-def keyboard(lines: Sequence[str] | None) -> TextIO:
+def keyboard(lines: Sequence[str] | None) -> io.TextIOBase:
     """The stdin of a program that is given these lines; None: it is not expected to read any."""
     return _NoInput() if lines is None else _Lines("".join(f"{line}\n" for line in lines))
 

@@ -160,7 +160,7 @@ class _AddPoints(ast.NodeTransformer):
         self._accesses[-line] += writes
         return bool(writes)
 
-    def _found(self, node: ast.AST) -> Iterator[Access]:
+    def _found(self, node: Any) -> Iterator[Access]:
         attribute = _attribute(node.func.value) if _is_method(node) else None
         if attribute:
             yield Access(CALL, *attribute, node.func.attr)

@@ -66,7 +66,7 @@ class FiberEventLoops(asyncio.DefaultEventLoopPolicy):
 
     @property
     def _local(self) -> Any:
-        return self._locals.setdefault(greenlet.getcurrent(), self._Local())
+        return self._locals.setdefault(greenlet.getcurrent(), self._Local())  # type: ignore[attr-defined]
 
     @_local.setter
     def _local(self, shared: Any) -> None:

@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 from sim.nanoseconds import Nanoseconds
 from sim.order import ANY, HOST, Draw
 from sim.ros.fibers.choices import FIRST, USUAL, Choices
+from sim.ros.recorder.records import SERVICE
 from sim.ros.recorder.running import callback_name
+from sim.ros.transport.reader import READER
 
 TIMERS = "timers"
 
@@ -45,9 +47,9 @@ def may_be_ready(entry: Any) -> bool:
     if kind == "timer":
         return entity.handle.is_timer_ready()
     if kind == "subscription":
-        return bool(entity._sim.queue)
+        return bool(READER.of(entity).queue)
     if kind == "service":
-        return entity._sim.has_requests
+        return SERVICE.of(entity).has_requests
     return kind != "guard_condition" or entity._executor_triggered
 
 
@@ -109,4 +111,4 @@ class ReadyOrder:
                 if chosen.draw is not None:
                     node = place.entry[2].get_fully_qualified_name()
                     text = f"{node} takes {label_of(place.entry)} before {label_of(later.entry)}"
-                    self._choices.list(chosen.draw, node, "callback", text)
+                    self._choices.note_departure(chosen.draw, node, "callback", text)

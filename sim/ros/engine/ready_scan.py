@@ -20,13 +20,13 @@ from sim.ros.engine.service_work import is_called, response_work, service_work
 from sim.ros.engine.waitables import is_ready
 from sim.ros.fibers.waiter import Waiter
 from sim.ros.rclpy_cpp import cpp
-from sim.ros.recorder.records import ActionRecord, ServiceRecord
+from sim.ros.recorder.records import ACTION, SERVICE
 from sim.ros.transport.action_endpoints import take_at_client, take_at_server
 from sim.ros.transport.middleware import MiddlewareReader
-from sim.ros.transport.reader import DataReader
+from sim.ros.transport.qos_events import EVENT_COUNTS
+from sim.ros.transport.reader import READER
 from sim.ros.transport.service_transport import ServiceTransport
 
-RCLError = cpp.RCLError
 # What an event of the middleware counts: matched or incompatible endpoints.
 CHANGES = "total_count_change", "current_count_change", "alive_count_change", "not_alive_count_change"
 TASK_ORDER = -1 if DISTRO == "jazzy" else 1  # Jazzy's executors begin with the newest task
@@ -64,7 +64,7 @@ class ReadyScan:
         for check, entity, node in entries:
             try:
                 work = check(self, entity, node)
-            except (InvalidHandle, RCLError):  # destroyed since the pass began
+            except (InvalidHandle, cpp.RCLError):  # destroyed since the pass began
                 continue
             if work is not None:
                 if self._order is not None:
@@ -101,10 +101,10 @@ class ReadyScan:
             subscriptions = self._subscriptions(node)  # first: a class in its place fails here
             self.engine.recorder.node_fact(node, SPUN)
             handlers = [w for w in node.waitables if isinstance(w, EventHandler)]
-            events += [(ReadyScan._event, w, node) for w in handlers if "_sim" not in w.__dict__]
+            events += [(ReadyScan._event, w, node) for w in handlers if EVENT_COUNTS.find(w) is None]
             self.timers += node.timers
             self._entries += [
-                *((ReadyScan._counted_event, w, node) for w in handlers if "_sim" in w.__dict__),
+                *((ReadyScan._counted_event, w, node) for w in handlers if EVENT_COUNTS.find(w) is not None),
                 *((self._check_of(w), w, node) for w in node.waitables if not isinstance(w, EventHandler)),
                 *((ReadyScan._timer, timer, node) for timer in node.timers),
                 *((ReadyScan._subscription, s, node) for s in subscriptions),
@@ -119,7 +119,7 @@ class ReadyScan:
         clock = node._time_source._clock_sub
         found = [subscription for subscription in node.subscriptions if subscription is not clock]
         for subscription in found:
-            reader: DataReader = subscription._sim
+            reader = READER.of(subscription)
             reader.waiter = self._waiter
             if isinstance(reader, MiddlewareReader):
                 self._poll()
@@ -139,7 +139,7 @@ class ReadyScan:
         return Work("timer", timer, node, timer.callback)
 
     def _subscription(self, subscription: Any, node: Any) -> Work | None:
-        sent = subscription._sim.take() if self._free(subscription) else None
+        sent = READER.of(subscription).take() if self._free(subscription) else None
         if sent is None:
             return None
         if subscription._callback_type is MESSAGE_ONLY:
@@ -168,7 +168,7 @@ class ReadyScan:
         return response_work(self.engine.recorder.calls, self.executor, client, node, header, response)
 
     def _service(self, service: Any, node: Any) -> Work | None:
-        record: ServiceRecord = service._sim
+        record = SERVICE.of(service)
         network = self._transport.services
         if not (record.has_requests or network is not None) or not self._free(service):
             return None
@@ -185,7 +185,7 @@ class ReadyScan:
         if not self._free(server):
             return None
         data = self._arrived(server, take_at_server, ServiceTransport.at_server)
-        record: ActionRecord = server._sim
+        record = ACTION.of(server)
         if server._goal_handles:
             self._poll()  # they expire as time passes
             if record.swept != self.engine.now:
@@ -209,7 +209,7 @@ class ReadyScan:
         self, endpoint: Any, take: Callable[[Any], dict], through: Callable[[ServiceTransport, Any], dict]
     ) -> dict[str, Any]:
         """Return what has arrived at an endpoint of an action. Looking takes 60 us, so only if need be."""
-        network, record = self._transport.services, endpoint._sim
+        network, record = self._transport.services, ACTION.of(endpoint)
         if network is not None:
             return through(network, endpoint)
         if not record.has_news:
@@ -227,7 +227,7 @@ class ReadyScan:
         return self._waitable(handler, node, data, "event")
 
     def _counted_event(self, handler: Any, node: Any) -> Work | None:
-        data = handler._sim.take() if self._free(handler) else None
+        data = EVENT_COUNTS.of(handler).take() if self._free(handler) else None
         work = None if data is None else self._waitable(handler, node, data, "event")
         return work and work._replace(names=handler.callback)
 

@@ -75,7 +75,7 @@ class SharedContext:
 
 def shared_context(context: Context) -> SharedContext:
     """Return what a context that was initialized in a run has in place of rcl's handle."""
-    return context._Context__context
+    return context._Context__context  # type: ignore[attr-defined]
 
 
 class RunningProgram:

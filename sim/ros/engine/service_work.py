@@ -7,14 +7,14 @@ from typing import Any
 
 from sim.ros.engine.callbacks import Work
 from sim.ros.recorder.calls import Calls
-from sim.ros.recorder.records import ServiceRecord
+from sim.ros.recorder.records import SERVICE
 
 COMPLETE = "Questions._complete"  # the name of a response's callback in recordings: digests depend on it
 
 
 def is_called(service: Any) -> bool:
     """Return whether a client has sent a request to a service of the run."""
-    record: ServiceRecord | None = service.__dict__.get("_sim")
+    record = SERVICE.find(service)
     return record is not None and record.called
 
 
@@ -22,7 +22,7 @@ def service_work(calls: Calls, service: Any, node: Any, request: Any, header: An
     """The work of a service that has taken a request: run its callback, and send the response."""
     call = calls.request_taken(service, node, header.request_id.sequence_number, request)
 
-    service._sim.unanswered[id(header)] = call
+    SERVICE.of(service).unanswered[id(header)] = call
 
     def answer() -> None:
         with calls.answering(call):

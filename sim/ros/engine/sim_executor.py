@@ -26,6 +26,7 @@ from rclpy.task import Future, Task
 
 from sim.evidence import TAKEN_OVER
 from sim.nanoseconds import Nanoseconds, nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
 from sim.ros.engine.ready_scan import ReadyScan
@@ -244,3 +245,6 @@ class SimExecutor(Waiter):
             self.running.remove(fiber)
             if fiber.error is not None:
                 raise fiber.error
+
+
+EXECUTOR = Attached[SimExecutor]()  # of an Executor

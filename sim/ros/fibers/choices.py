@@ -32,7 +32,7 @@ class Choices:
         self._listed: set[tuple[Nanoseconds, str]] = set()
         self._earliest: dict[tuple[Any, ...], float] = {}
 
-    def list(self, draw: Draw, node: str, kind: str, text: str) -> None:
+    def note_departure(self, draw: Draw, node: str, kind: str, text: str) -> None:
         """A choice departs from the usual one. Each is listed once at a time."""
         now = self._now()
         if (now, draw.id) not in self._listed and len(self._departures) < MOST_DEPARTURES:
@@ -54,7 +54,7 @@ class Choices:
     def started_late(self, program: Program) -> None:
         """A program starts now, after its delay."""
         draw, delay = self.order.start(program.number)
-        self.list(draw, program.key, "start", f"{program.name} starts {delay / SECOND:.3f} s later")
+        self.note_departure(draw, program.key, "start", f"{program.name} starts {delay / SECOND:.3f} s later")
 
     def turns(self, fibers: Sequence[Fiber]) -> list[Fiber]:
         """The fibers in the order in which they take their turns in a round.
@@ -69,13 +69,13 @@ class Choices:
         if ready and any(not fiber.done and fiber.runnable() for fiber in course):
             draw = self.order.draw("first", self._now())
             if self.order.departs(draw, self.order.intensity):
-                self.list(draw, "", "turn", "the programs under test run before the others")
+                self.note_departure(draw, "", "turn", "the programs under test run before the others")
                 return students + course
         return course + students
 
     def _arranged(self, students: list[Fiber], ready: list[Fiber]) -> list[Fiber]:
         now, intensity = self._now(), self.order.intensity
-        draws = {fiber: self.order.draw("turn", now, fiber.process.key, fiber.number) for fiber in ready}  # type: ignore[attr-defined]
+        draws = {fiber: self.order.draw("turn", now, fiber.process.key, fiber.number) for fiber in ready}
         ranks = {fiber: self.rank(draw, intensity) for fiber, draw in draws.items()}
         arranged = sorted(students, key=lambda fiber: ranks.get(fiber, USUAL))
         places = {fiber: index for index, fiber in enumerate(fiber for fiber in arranged if fiber in ranks)}
@@ -88,7 +88,7 @@ class Choices:
             if ranks[fiber] != USUAL and passed:
                 where = "before" if places[fiber] < index else "after"
                 text = f"{label(fiber)} runs {where} {' and '.join(passed)}"
-                self.list(draws[fiber], fiber.process.key, "turn", text)
+                self.note_departure(draws[fiber], fiber.process.key, "turn", text)
         return arranged
 
     # -- threads -----------------------------------------------------------------------------------
@@ -116,7 +116,7 @@ class Choices:
         thread, name = label(fiber), function.rsplit("<locals>.", 1)[-1]
         where = "" if name in thread else f" of {name}"
         text = f"{thread} is preempted before line {line}{where}"
-        self.list(draw, program.key, "thread", text)
+        self.note_departure(draw, program.key, "thread", text)
         return Preempted(int(max(0.0, 2 * draw.value - 1) * longest), draw.value < 0.25 and longest)
 
     def _earliest_visit(self, *line: Any) -> float:

@@ -16,6 +16,7 @@ from typing import Any, Protocol
 import greenlet
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.fibers.waiter import NEVER, Waiter
 
@@ -26,6 +27,8 @@ class Program(Protocol):
     name: str
     number: int  # among the programs of the course, or of the student
     key: str  # its name and number, by which an order names it
+    target: Callable[..., Any] | str  # what it runs
+    main: Any  # the fiber of its main()
     nodes: list[Any]
     from_course: bool  # the course's, not the student's
     bundled: bool  # of a ROS package that the course includes
@@ -86,7 +89,8 @@ class Fiber:
 
     def attach_thread(self, thread: threading.Thread) -> None:
         """Make this the thread that student code finds as its own, alive while the fiber is."""
-        self.thread, thread._sim = thread, self  # type: ignore[attr-defined]
+        self.thread = thread
+        FIBER.attach(thread, self)
 
     def runnable(self) -> bool:
         """Return whether what it waits for has happened."""
@@ -117,3 +121,6 @@ class Fiber:
         ctypes.pythonapi.Py_IncRef(ctypes.py_object(self.greenlet))
         self.done = True
         self._scheduler.hub.switch()
+
+
+FIBER = Attached[Fiber]()  # of a Thread

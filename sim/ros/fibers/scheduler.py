@@ -198,8 +198,8 @@ def activate(scheduler: Scheduler | None) -> None:
 os.register_at_fork(after_in_child=lambda: activate(None))
 
 
-def active() -> Scheduler | None:
-    """The scheduler of the run in progress."""
+def active() -> Any:
+    """The engine of the run in progress, or None."""
     return _active
 
 

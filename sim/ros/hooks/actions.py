@@ -20,6 +20,7 @@ from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 from sim.ros.rclpy_cpp import cpp
 from sim.ros.recorder.action_goals import key
+from sim.ros.recorder.records import ACTION
 
 
 def _action_end(owner: type, kind: str) -> None:
@@ -80,7 +81,7 @@ def send_goal_async(original: Callable) -> Callable:
         raw = encode(goal)
         with run.recorder.calls.sending(run.recorder.goals.discovered(self)):
             future = original(self, goal, *arguments, **keywords)
-        run.transport.request_sent(f"{self._sim.action}/_action/send_goal")
+        run.transport.request_sent(f"{ACTION.of(self).action}/_action/send_goal")
         number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
         run.recorder.goals.goal_sent(self, number, goal_id, raw)
         return future
@@ -105,8 +106,9 @@ def server_is_ready(original: Callable) -> Callable:
     def server_is_ready(self: ActionClient) -> bool:
         require_context(self._node, "Failed to check if action server is available")
         ready = original(self)
-        if engine() is not None and ready and "_sim" in self.__dict__:
-            self._sim.server_seen = True
+        record = ACTION.find(self)
+        if engine() is not None and ready and record is not None:
+            record.server_seen = True
         return ready
 
     return server_is_ready
@@ -128,7 +130,7 @@ def cancel_goal_async(original: Callable) -> Callable:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
-            run.transport.request_sent(f"{self._sim.action}/_action/cancel_goal")
+            run.transport.request_sent(f"{ACTION.of(self).action}/_action/cancel_goal")
             run.recorder.goals.cancel_sent(self, goal_handle.goal_id)
         return future
 
@@ -141,7 +143,7 @@ def get_result_async(original: Callable) -> Callable:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
-            run.transport.request_sent(f"{self._sim.action}/_action/get_result")
+            run.transport.request_sent(f"{ACTION.of(self).action}/_action/get_result")
         return future
 
     return _get_result_async

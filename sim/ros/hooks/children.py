@@ -34,7 +34,7 @@ def wait_for_child(original: Callable) -> Callable:
         except subprocess.TimeoutExpired:
             if not less:
                 raise
-        run.guard.waited("another process")
+        return run.guard.waited("another process")
 
     return _wait
 

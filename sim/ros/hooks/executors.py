@@ -17,9 +17,10 @@ from rclpy.task import Future
 
 from sim.evidence import SPUN
 from sim.nanoseconds import nanoseconds
-from sim.ros.engine.sim_executor import OrderedNodes, SimExecutor, never
+from sim.ros.engine.sim_executor import EXECUTOR, OrderedNodes, SimExecutor, never
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
+from sim.ros.transport.reader import READER
 
 # Executors of TransformListener(..., spin_thread=True): whichever of two has the node, its callbacks run.
 _OF_LISTENERS: WeakSet[Executor] = WeakSet()
@@ -33,7 +34,7 @@ def executor_init(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             self._nodes = OrderedNodes()
-            self._sim = SimExecutor(self, run)
+            EXECUTOR.attach(self, SimExecutor(self, run))
 
     return __init__
 
@@ -52,7 +53,7 @@ def _spin_once_impl(owner: type, parallel: bool) -> None:
     @hook(owner, "_spin_once_impl", "waiting for callbacks takes simulated time, and they come in one order")
     def spin(original: Callable) -> Callable:
         def _spin_once_impl(self: Any, timeout_sec: Any = None, wait_condition: Callable = never) -> None:
-            sim = self.__dict__.get("_sim")
+            sim = EXECUTOR.find(self)
             if sim is None or engine() is not sim.engine:
                 return original(self, timeout_sec, wait_condition)
             return sim.spin_once(timeout_sec, wait_condition, parallel)
@@ -68,7 +69,7 @@ def _spin_once_until_future_complete(owner: type) -> None:
     @hook(owner, "spin_once_until_future_complete", "each spin would leave one more task that only wakes it")
     def spin(original: Callable) -> Callable:
         def spin_once_until_future_complete(self: Any, future: Future, timeout_sec: Any = None) -> None:
-            sim = self.__dict__.get("_sim")
+            sim = EXECUTOR.find(self)
             if sim is None or engine() is not sim.engine or future not in sim.wakers:
                 if sim is not None:
                     sim.wakers.add(future)
@@ -87,7 +88,7 @@ def wait_for_ready_callbacks(original: Callable) -> Callable:
     def _wait_for_ready_callbacks(
         self: Executor, timeout_sec: Any = None, nodes: Any = None, condition: Callable = never
     ) -> Iterator[tuple[Any, Any, Any]]:
-        sim = self.__dict__.get("_sim")
+        sim = EXECUTOR.find(self)
         if sim is None or engine() is not sim.engine:
             return original(self, timeout_sec, nodes, condition)
         return sim.handlers(timeout_sec, nodes, condition)
@@ -124,7 +125,7 @@ def add_node(original: Callable) -> Callable:
         spun_before = isinstance(before, Executor) and before is not self and node in before._nodes
         added = original(self, node)
         if spun_before and not (self in _OF_LISTENERS or before in _OF_LISTENERS):
-            before._sim.added_elsewhere(node)
+            EXECUTOR.of(before).added_elsewhere(node)
         return added
 
     return add_node
@@ -173,7 +174,7 @@ def wait_for_message(original: Callable) -> Callable:
         taken: list[Any] = []
 
         def arrived() -> bool:
-            sent = None if taken else subscription._sim.take()
+            sent = None if taken else READER.of(subscription).take()
             if sent is not None:
                 taken.append(sent.message)
             return bool(taken) or not node.context.ok()

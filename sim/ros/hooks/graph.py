@@ -18,6 +18,7 @@ from rclpy.subscription import Subscription
 
 from sim.evidence import RATE
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.engine.running_program import shared_context
 from sim.ros.engine.sim_executor import NOT_VALID
 from sim.ros.fibers.scheduler import active, engine
@@ -25,6 +26,8 @@ from sim.ros.hooks.contexts import require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
 from sim.ros.rclpy_cpp import cpp
+from sim.ros.transport.reader import READER
+from sim.ros.transport.writer import WRITER
 
 LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history is full; measured with Fast DDS
 FOR_EVER = Duration(seconds=-1)
@@ -49,8 +52,8 @@ def create_publisher(original: Callable) -> Callable:
                 )
             end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
             end |= {"from_course": run.recorder.is_course_node(), "events": publisher.event_handlers}
-            publisher._sim = run.transport.topics.writer(self.handle, publisher.handle, msg_type, **end)
-            publisher._sim.context = shared_context(self.context)
+            writer = run.transport.topics.writer(self.handle, publisher.handle, msg_type, **end)
+            WRITER.attach(publisher, writer).context = shared_context(self.context)
             run.recorder.endpoint(
                 "publisher", self, name, msg_type, publisher.qos_profile, handle=publisher.handle
             )
@@ -73,7 +76,7 @@ def create_subscription(original: Callable) -> Callable:
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
             end |= {"subscriber": run.recorder.name_of(self), "events": subscription.event_handlers}
-            subscription._sim = run.transport.topics.reader(self.handle, handle, msg_type, **end)
+            READER.attach(subscription, run.transport.topics.reader(self.handle, handle, msg_type, **end))
             run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
             run.waiters.endpoints_changed()
         return subscription
@@ -98,7 +101,7 @@ def create_timer(original: Callable) -> Callable:
 
 def _require_context(publisher: Publisher, failed: str) -> None:
     """Work like `require_context`, with the words of a publisher."""
-    writer = publisher.__dict__.get("_sim")
+    writer = WRITER.find(publisher)
     if writer is not None and not writer.context.alive and engine() is not None:
         raise cpp.RCLError(f"{failed}: publisher's context is invalid")
 
@@ -107,7 +110,7 @@ def _require_context(publisher: Publisher, failed: str) -> None:
 def publish(original: Callable) -> Callable:
     def publish(self: Publisher, msg: Any) -> None:
         run = engine()
-        writer = self.__dict__.get("_sim")
+        writer = WRITER.find(self)
         if run is None or writer is None:
             return original(self, msg)
         msg = convert_float_message(msg, self.msg_type)
@@ -138,7 +141,7 @@ def get_subscription_count(original: Callable) -> Callable:
     def get_subscription_count(self: Publisher) -> int:
         _require_context(self, "failed to get subscription count")
         count = original(self)
-        writer = self.__dict__.get("_sim")
+        writer = WRITER.find(self)
         return count if engine() is None or writer is None else max(count - writer.undiscovered(), 0)
 
     return get_subscription_count
@@ -149,8 +152,9 @@ def assert_liveliness(original: Callable) -> Callable:
     def assert_liveliness(self: Publisher) -> None:
         _require_context(self, "Failed to assert liveliness on the Publisher")
         original(self)
-        if engine() is not None and "_sim" in self.__dict__:
-            self._sim.assert_liveliness()
+        writer = WRITER.find(self)
+        if engine() is not None and writer is not None:
+            writer.assert_liveliness()
 
     return assert_liveliness
 
@@ -160,7 +164,7 @@ def wait_for_all_acked(original: Callable) -> Callable:
     def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
         _require_context(self, "Failed to wait for all acknowledgments")
         run = engine()
-        writer = self.__dict__.get("_sim")
+        writer = WRITER.find(self)
         if run is None or writer is None or writer.outgoing is None:
             return original(self, timeout)
         until = None if timeout.nanoseconds < 0 else run.now + timeout.nanoseconds
@@ -171,24 +175,20 @@ def wait_for_all_acked(original: Callable) -> Callable:
     return wait_for_all_acked
 
 
-@hook(Publisher, "destroy", "its topic removes it")
-def destroy_publisher(original: Callable) -> Callable:
-    def destroy(self: Publisher) -> None:
-        original(self)
-        if "_sim" in self.__dict__:
-            self._sim.close()
+def _close_with(owner: type, endpoint: Attached) -> None:
+    @hook(owner, "destroy", "its topic removes it")
+    def destroy_endpoint(original: Callable) -> Callable:
+        def destroy(self: Any) -> None:
+            original(self)
+            end = endpoint.find(self)
+            if end is not None:
+                end.close()
 
-    return destroy
+        return destroy
 
 
-@hook(Subscription, "destroy", "its topic removes it")
-def destroy_subscription(original: Callable) -> Callable:
-    def destroy(self: Subscription) -> None:
-        original(self)
-        if "_sim" in self.__dict__:
-            self._sim.close()
-
-    return destroy
+_close_with(Publisher, WRITER)
+_close_with(Subscription, READER)
 
 
 @hook(cpp.Destroyable, "destroy_when_not_in_use", "its proxy in another process is destroyed with it")

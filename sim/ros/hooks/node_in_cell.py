@@ -27,7 +27,7 @@ def not_initialized(original: Callable) -> Callable:
                 f"NotInitializedException: {name}() creates the node here, outside a run. Pass the class, "
                 f"without parentheses: run({name}), not run({name}()); the run creates the node."
             )
-            self._render_traceback_ = lambda: [said]
+            self._render_traceback_ = lambda: [said]  # type: ignore[attr-defined]
 
     return __init__
 

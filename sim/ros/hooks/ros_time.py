@@ -15,7 +15,7 @@ from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
 from sim.nanoseconds import UPTIME, Nanoseconds
-from sim.ros.engine.clock_switch import ClockSwitch
+from sim.ros.engine.clock_switch import CLOCK_SWITCH, ClockSwitch
 from sim.ros.fibers.scheduler import Scheduler, engine
 from sim.ros.hooks.table import hook
 
@@ -38,7 +38,7 @@ def new_clock(original: Callable) -> Callable:
         run = engine()
         if run is not None and clock.clock_type is ClockType.ROS_TIME:
             run.time.adopt(clock)
-            clock._sim = ClockSwitch()
+            CLOCK_SWITCH.attach(clock, ClockSwitch())
         return clock
 
     return __new__
@@ -71,7 +71,7 @@ def attach_clock(original: Callable) -> Callable:
 @hook(ROSClock, "_set_ros_time_is_active", "jump callbacks are called, and time stays the run's")
 def set_ros_time_is_active(original: Callable) -> Callable:
     def _set_ros_time_is_active(self: ROSClock, enabled: bool) -> None:
-        switch = self.__dict__.get("_sim")
+        switch = CLOCK_SWITCH.find(self)
         if engine() is None or switch is None:
             original(self, enabled)
         else:
@@ -81,9 +81,9 @@ def set_ros_time_is_active(original: Callable) -> Callable:
 
 
 @hook(ROSClock, "ros_time_is_active", "rcl returns true for each clock that shows the run's time")
-def ros_time_is_active(original: property) -> property:
+def ros_time_is_active(original: Any) -> property:
     def ros_time_is_active(self: ROSClock) -> bool:
-        switch = self.__dict__.get("_sim")
+        switch = CLOCK_SWITCH.find(self)
         return original.fget(self) if engine() is None or switch is None else switch.on
 
     return property(ros_time_is_active)
@@ -95,10 +95,10 @@ def jump_handle_init(original: Callable) -> Callable:
         original(self, clock=clock, threshold=threshold, **callbacks)
         if engine() is not None:
             self.unregister()  # rcl would call it from outside student code, and after its destruction
-            switch = clock.__dict__.get("_sim")
+            switch = CLOCK_SWITCH.find(clock)
             if switch is not None and threshold.on_clock_change:
                 switch.add(self)
-                self._sim = switch
+                CLOCK_SWITCH.attach(self, switch)
 
     return __init__
 
@@ -106,7 +106,7 @@ def jump_handle_init(original: Callable) -> Callable:
 @hook(JumpHandle, "unregister", "the run calls the callbacks for a switch")
 def unregister(original: Callable) -> Callable:
     def unregister(self: JumpHandle) -> None:
-        switch = self.__dict__.pop("_sim", None)
+        switch = CLOCK_SWITCH.detach(self)
         if switch is not None:
             switch.remove(self)
         original(self)

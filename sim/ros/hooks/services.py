@@ -17,6 +17,7 @@ from sim.ros.hooks.contexts import INVALID, is_shut_down, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 from sim.ros.rclpy_cpp import cpp
+from sim.ros.recorder.records import CLIENT, SERVICE
 
 
 def _seek(node: Node, service: Any) -> None:
@@ -36,7 +37,7 @@ def create_service(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             name = self.resolve_service_name(srv_name)
-            service._sim.node = run.recorder.name_of(self)
+            SERVICE.of(service).node = run.recorder.name_of(self)
             run.recorder.endpoint("service", self, name, srv_type, service.qos_profile, handle=service.handle)
         return service
 
@@ -49,9 +50,9 @@ def lifecycle_init(original: Callable) -> Callable:
         original(self, **keywords)
         run = engine()
         if run is not None:
-            for service in self.services:
+            for service in self.services:  # type: ignore[attr-defined]
                 if service.srv_type.__module__.startswith("lifecycle_msgs."):
-                    service._sim.node = run.recorder.name_of(self)
+                    SERVICE.of(service).node = run.recorder.name_of(self)
                     run.recorder.endpoint(
                         "service", self, service.service_name, service.srv_type, service.qos_profile,
                         handle=service.handle,
@@ -74,11 +75,11 @@ def service_init(original: Callable) -> Callable:
 @hook(Service, "send_response", "every response is recorded as the bytes that are sent, also a library's")
 def send_response(original: Callable) -> Callable:
     def send_response(self: Service, response: Any, header: Any) -> None:
-        run, record = engine(), self.__dict__.get("_sim")
+        run, record = engine(), SERVICE.find(self)
         call = None if run is None or record is None else record.unanswered.pop(id(header), None)
         if call is None:
             return original(self, response, header)
-        expect(response, self.srv_type.Response)
+        expect(response, self.srv_type.Response)  # type: ignore[attr-defined]
         raw = encode(response)
         original(self, response, header)
         return run.recorder.calls.response_sent(call, raw)
@@ -126,9 +127,9 @@ def send_request(original: Callable) -> Callable:
 def call_async(original: Callable) -> Callable:
     def call_async(self: Client, request: Any) -> Future:
         run = engine()
-        if run is None or "_sim" not in self.__dict__:
+        if run is None or CLIENT.find(self) is None:
             return original(self, request)
-        expect(request, self.srv_type.Request)
+        expect(request, self.srv_type.Request)  # type: ignore[attr-defined]
         run.limits.count_request()
         raw, calls = encode(request), run.recorder.calls
         with calls.sending(calls.discovered(self)):
@@ -145,8 +146,9 @@ def service_is_ready(original: Callable) -> Callable:
         if is_shut_down(self.context):
             raise cpp.RCLError(f"failed to check service availability: {INVALID}")
         ready = original(self)
-        if engine() is not None and ready and "_sim" in self.__dict__:
-            self._sim.server_seen = True
+        record = CLIENT.find(self)
+        if engine() is not None and ready and record is not None:
+            record.server_seen = True
         return ready
 
     return service_is_ready
@@ -156,7 +158,7 @@ def service_is_ready(original: Callable) -> Callable:
 def call(original: Callable) -> Callable:
     def call(self: Client, request: Any, timeout_sec: float | None = None) -> Any:
         if engine() is not None:
-            expect(request, self.srv_type.Request)
+            expect(request, self.srv_type.Request)  # type: ignore[attr-defined]
         return original(self, request, timeout_sec)
 
     return call

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from sim.nanoseconds import nanoseconds
-from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.fiber import FIBER
 from sim.ros.fibers.locks import FiberLock, FiberRLock
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
@@ -27,9 +27,9 @@ def start(original: Callable) -> Callable:
             return original(self)
         if run.current.process.fibers_alive >= MOST_THREADS:
             raise RuntimeError(f"can't start new thread: {MOST_THREADS} of this program are running")
-        self._started.set()
+        self._started.set()  # type: ignore[attr-defined]
         # Not the thread's name, which counts all threads of the kernel and would make every run different.
-        name = f"thread {callback_name(self._target or type(self))}"
+        name = f"thread {callback_name(self._target or type(self))}"  # type: ignore[attr-defined]
         fiber = run.spawn(self.run, name, run.current.process)
         fiber.daemon = self.daemon
         fiber.attach_thread(self)
@@ -41,7 +41,7 @@ def start(original: Callable) -> Callable:
 @hook(threading.Thread, "join", "a thread that is a fiber ends in simulated time")
 def join(original: Callable) -> Callable:
     def join(self: threading.Thread, timeout: float | None = None) -> None:
-        fiber: Fiber | None = getattr(self, "_sim", None)
+        fiber = FIBER.find(self)
         if fiber is None:
             return original(self, timeout)
         run = engine()
@@ -56,7 +56,7 @@ def join(original: Callable) -> Callable:
 @hook(threading.Thread, "is_alive", "a thread that is a fiber has no thread of the system")
 def is_alive(original: Callable) -> Callable:
     def is_alive(self: threading.Thread) -> bool:
-        fiber: Fiber | None = getattr(self, "_sim", None)
+        fiber = FIBER.find(self)
         return original(self) if fiber is None else not fiber.done
 
     return is_alive
@@ -134,6 +134,6 @@ def allocate_lock(original: Callable) -> Callable:
 @hook(queue, "SimpleQueue", "the one in C waits on a real lock; ThreadPoolExecutor takes its work from one")
 def simple_queue(original: Any) -> Callable:
     def SimpleQueue() -> Any:
-        return original() if engine() is None else queue._PySimpleQueue()
+        return original() if engine() is None else queue._PySimpleQueue()  # type: ignore[attr-defined]
 
     return SimpleQueue

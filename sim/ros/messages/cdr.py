@@ -94,7 +94,7 @@ def _layout_of(type_name: str) -> tuple | None:
         return None
 
 
-def _steps(cls: type) -> tuple:
+def _steps(cls: type[Any]) -> tuple:
     steps: list[tuple] = []
     for slot in cls.SLOT_TYPES:
         for step in _step(slot):

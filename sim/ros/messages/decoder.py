@@ -74,7 +74,7 @@ class _DecoderSource:
         self._lines = ["def read(raw, at):"]
         self._values: list[tuple[str, Any]] = []  # target and type of each value, in the order of the bytes
 
-    def add(self, cls: type) -> str:
+    def add(self, cls: type[Any]) -> str:
         """Add code that creates a message and its nested ones; returns its variable. Raises _Unsupported."""
         if not cls.SLOT_TYPES:
             raise _Unsupported

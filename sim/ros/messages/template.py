@@ -49,7 +49,9 @@ def _make_fill(cls: type, raw: bytes, fields: tuple[str, ...]) -> Callable[..., 
     message = decode_message(cls, raw)
     slots = [slot for field in fields for slot in _find(message, field)]
     values = [f"value{number}" for number in range(len(slots))]
-    format_, parts, at, known = "<", [], 0, {}
+    format_, at = "<", 0
+    parts: list[str] = []
+    known: dict[str, Any] = {}
     for (offset, code), value in sorted(zip(slots, values, strict=True)):
         known[f"before_{value}"] = raw[at:offset]
         parts += [f"before_{value}", value]

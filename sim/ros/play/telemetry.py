@@ -86,8 +86,9 @@ class Telemetry:
             return None
         item = self._newest.get(self.topic)
         message = decoded(item) if item is not None else None
-        shown = {"name": self.topic, "type": kind, "text": "No message yet.", "stamp": None, "curves": []}
-        if message is not None:
+        shown: dict[str, Any] = {"name": self.topic, "type": kind}
+        shown |= {"text": "No message yet.", "stamp": None, "curves": []}
+        if item is not None and message is not None:
             shown |= {"text": "\n".join(text_lines(message)), "stamp": item.stamp}
             shown["curves"] = list(self._curves(message, item.stamp))
         return shown

@@ -13,7 +13,7 @@ from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.records import ActionRecord
+from sim.ros.recorder.records import ACTION, ActionRecord
 
 WORDS = {
     value: name.removeprefix("STATUS_").lower()
@@ -45,7 +45,7 @@ class Goals:
             self._servers[name].append(weakref.ref(end))
         recorder = self._recorder
         fields = {"action": name, "type": type_name(type_), "node": recorder.name_of(node)}
-        end._sim = ActionRecord(*recorder.creator(), **fields)
+        ACTION.attach(end, ActionRecord(*recorder.creator(), **fields))
 
     def endpoints(self) -> list[Any]:
         """The action servers and clients that exist."""
@@ -56,7 +56,7 @@ class Goals:
         return self._by_id.setdefault((action, key(goal_id)), [])
 
     def _known(self, end: Any, goal_id: Any) -> list[Goal]:
-        return self.with_id(end._sim.action, goal_id)
+        return self.with_id(ACTION.of(end).action, goal_id)
 
     def _event(self, goal: Goal | None, word: str) -> None:
         if goal is not None and self._recorder.open:
@@ -64,7 +64,7 @@ class Goals:
 
     def add(self, end: Any, client: str, goal_id: Any, raw: bytes, requested: float | None) -> Goal:
         """Begin to record a goal; `end` is its client, or a server that took what no client here sent."""
-        record: ActionRecord = end._sim
+        record = ACTION.of(end)
         self._recorder.count(record.node, len(raw))
         raw = canonical(f"{record.type}_Goal", raw)
         goal = Goal(record.action, record.type, client, key(goal_id).hex(), raw, requested)
@@ -77,8 +77,9 @@ class Goals:
     def goal_sent(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
         """A client sent a goal; one of a number below 0 gets lost."""
         if self._recorder.open:
-            goal = self.add(client, client._sim.node, goal_id, raw, self._recorder.now)
-            client._sim.goals[number], goal.requested_by_course = goal, client._sim.from_course
+            record = ACTION.of(client)
+            goal = self.add(client, record.node, goal_id, raw, self._recorder.now)
+            record.goals[number], goal.requested_by_course = goal, record.from_course
             goal.lost = number < 0 or not self._there(goal.action)
 
     def _there(self, action: str) -> list[Any]:
@@ -87,8 +88,9 @@ class Goals:
 
     def discovered(self, client: Any) -> bool:
         """Return whether a goal of a client would reach a server, if there is one."""
-        there = [server._sim for server in self._there(client._sim.action)]
-        return client._sim.reaches(there, self._recorder.scheduler.now)
+        record = ACTION.of(client)
+        there = [ACTION.of(server) for server in self._there(record.action)]
+        return record.reaches(there, self._recorder.scheduler.now)
 
     def client_of(self, action: str, goal_id: Any) -> str:
         """The node that sent a goal; "" for one that no ActionClient sent."""
@@ -98,7 +100,7 @@ class Goals:
     def server_of(self, action: str) -> str:
         """The node that takes goals of this action; "" if none does."""
         servers = (known() for known in self._servers[action])
-        return next((server._sim.node for server in servers if server is not None), "")
+        return next((ACTION.of(server).node for server in servers if server is not None), "")
 
     def cancel_sent(self, client: Any, goal_id: Any) -> None:
         """A client requested the cancellation of a goal."""
@@ -110,7 +112,7 @@ class Goals:
         """A client took this from its queues, as rclpy's take_data() returns it."""
         if not self._recorder.open:
             return
-        goal = client._sim.goals.pop(data["goal"][0], None) if "goal" in data else None
+        goal = ACTION.of(client).goals.pop(data["goal"][0], None) if "goal" in data else None
         if goal is not None:
             goal.answered = self._recorder.now
         number = data["result"][0] if "result" in data else None
@@ -132,9 +134,10 @@ class Goals:
             client, requested = (known[0].client, known[0].requested) if known else ("", None)
             goal = self.add(server, client, goal_id, encode(request), requested)
             goal.requested_by_course = known[0].requested_by_course
-        goal.server, goal.served_by_course = server._sim.node, server._sim.from_course
+        record = ACTION.of(server)
+        goal.server, goal.served_by_course = record.node, record.from_course
         if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
-            server._sim.goals[key(goal_id)] = goal
+            record.goals[key(goal_id)] = goal
         return goal
 
     def goal_handled(self, goal: Goal | None) -> None:
@@ -144,15 +147,15 @@ class Goals:
 
     def goal_accepted(self, server: Any, goal_id: Any) -> None:
         """A server accepted a goal."""
-        self._event(server._sim.goals.get(key(goal_id)), "accepted")
+        self._event(ACTION.of(server).goals.get(key(goal_id)), "accepted")
 
     def status_changed(self, server: Any, goal_id: Any, status: int) -> None:
         """A goal has another status: a number of action_msgs/msg/GoalStatus."""
-        self._event(server._sim.goals.get(key(goal_id)), WORDS[status])
+        self._event(ACTION.of(server).goals.get(key(goal_id)), WORDS[status])
 
     def cancel_taken(self, server: Any, goal_id: Any) -> tuple[Goal | None, str]:
         """A server took the request to cancel a goal; returns the goal and its status."""
-        goal = server._sim.goals.get(key(goal_id))
+        goal = ACTION.of(server).goals.get(key(goal_id))
         return goal, goal.status if goal is not None else ""
 
     def cancel_handled(self, goal: Goal | None, before: str) -> None:
@@ -162,7 +165,7 @@ class Goals:
 
     def feedback_published(self, server: Any, goal_id: Any, message: Any) -> None:
         """A server published feedback on a goal."""
-        goal, recorder = server._sim.goals.get(key(goal_id)), self._recorder
+        goal, recorder = ACTION.of(server).goals.get(key(goal_id)), self._recorder
         if goal is not None and recorder.open:
             raw, type_ = encode(message), f"{goal.type}_Feedback"
             recorder.count(goal.server, len(raw))
@@ -172,6 +175,6 @@ class Goals:
 
     def result_ready(self, server: Any, goal_id: Any, message: Any) -> None:
         """A server has the result of a goal, which clients can get."""
-        goal = server._sim.goals.get(key(goal_id))
+        goal = ACTION.of(server).goals.get(key(goal_id))
         if goal is not None and self._recorder.open:
             goal.raw_result = canonical(f"{goal.type}_Result", encode(message))

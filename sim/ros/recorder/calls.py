@@ -15,7 +15,7 @@ from sim.evidence import Call
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.base import RecorderBase
-from sim.ros.recorder.records import ClientRecord, Request, ServiceRecord
+from sim.ros.recorder.records import CLIENT, SERVICE, ClientRecord, Request, ServiceRecord
 
 
 class Calls:
@@ -34,14 +34,15 @@ class Calls:
     def client_created(self, client: Any, node: Any, name: str) -> None:
         """A node created a client of the service of this resolved name."""
         fields = {"service": name, "type": type_name(client.srv_type), "node": self._recorder.name_of(node)}
-        client._sim = ClientRecord(*self._recorder.creator(), **fields)
+        CLIENT.attach(client, ClientRecord(*self._recorder.creator(), **fields))
 
     def service_created(self, service: Any) -> None:
         """A node created a service: from now on requests reach it."""
         profile = service.qos_profile
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
         inbox: deque[Request] = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
-        service._sim = ServiceRecord(*self._recorder.creator(), service=service.service_name, inbox=inbox)
+        record = ServiceRecord(*self._recorder.creator(), service=service.service_name, inbox=inbox)
+        SERVICE.attach(service, record)
         self._services[service.service_name].append(weakref.ref(service))
 
     def servers(self, service: str) -> list[Any]:
@@ -51,8 +52,9 @@ class Calls:
 
     def discovered(self, client: Any) -> bool:
         """Return whether a request of a client would reach a server, if there is one."""
-        there = [server._sim for server in self.servers(client._sim.service)]
-        return client._sim.reaches(there, self._recorder.scheduler.now)
+        record = CLIENT.of(client)
+        there = [SERVICE.of(server) for server in self.servers(record.service)]
+        return record.reaches(there, self._recorder.scheduler.now)
 
     @contextlib.contextmanager
     def sending(self, discovered: bool) -> Iterator[None]:
@@ -75,7 +77,7 @@ class Calls:
         recorder = self._recorder
         if not recorder.open:
             return
-        record: ClientRecord = client._sim
+        record = CLIENT.of(client)
         recorder.count(record.node, len(raw))
         raw = canonical(f"{record.type}_Request", raw)
         about = record.service, record.type, record.node, raw, recorder.now
@@ -85,7 +87,7 @@ class Calls:
         recorder.recording.calls.append(call)
         request = record.requests[number] = number, [call]
         for server in there:
-            server._sim.inbox.append(request)
+            SERVICE.of(server).inbox.append(request)
 
     def request_taken(self, service: Any, node: Any, number: int, request: Any) -> Call:
         """A service took a request; returns the call that it belongs to."""
@@ -96,7 +98,7 @@ class Calls:
         if call is None:  # another server has this request too, or no rclpy Client sent it
             first = calls[0] if calls else Call("", "", "", b"", None)
             call = Call(
-                service._sim.service,
+                SERVICE.of(service).service,
                 type_,
                 first.client,
                 raw,
@@ -108,17 +110,18 @@ class Calls:
                 recorder.recording.calls.append(call)
         if recorder.open:
             call.server, call.taken = recorder.name_of(node), recorder.now
-            call.served_by_course = service._sim.from_course
+            call.served_by_course = SERVICE.of(service).from_course
         return call
 
     def services_with_requests(self) -> list[Any]:
         """Services with requests in their queues."""
         known = (service() for services in self._services.values() for service in services)
-        return [found for found in known if found is not None and found._sim.inbox and alive(found.handle)]
+        there = [service for service in known if service is not None and SERVICE.of(service).inbox]
+        return [service for service in there if alive(service.handle)]
 
     def calls_of(self, service: Any, number: int, raw: bytes) -> list[Call]:
         """The calls of a request that a service has taken; [] for one that no rclpy Client sent."""
-        return _take(service._sim.inbox, number, raw)
+        return _take(SERVICE.of(service).inbox, number, raw)
 
     @contextlib.contextmanager
     def answering(self, call: Call) -> Iterator[None]:
@@ -139,7 +142,7 @@ class Calls:
 
     def response_received(self, client: Any, number: int) -> None:
         """A client's future got the first response to a request."""
-        record: ClientRecord | None = client.__dict__.get("_sim")
+        record = CLIENT.find(client)
         _, calls = record.requests.pop(number, (number, [])) if record is not None else (number, [])
         answered = [call for call in calls if call.answered is not None]
         if answered and self._recorder.open:

@@ -183,7 +183,7 @@ class Recorder(RecorderBase):
         One that a callback raises to end `spin()`, and that is caught there by its name, is not recorded.
         """
         fiber = self.scheduler.current
-        main = None if fiber is None else fiber.process.main  # type: ignore[attr-defined]
+        main = None if fiber is None else fiber.process.main
         spins = None if main is None else main.greenlet.gr_frame  # of another thread, as of a pool's
         if not isinstance(error, NO_FAULT) and not is_expected(error, sys._getframe(1), spins):
             self._record(error, callback, node)

@@ -1,11 +1,4 @@
-"""What a run stores with objects of rclpy and Python: one attribute, `_sim`, of one type per kind of object.
-
-Service: ServiceRecord, Client: ClientRecord, ActionServer and ActionClient: ActionRecord, all here.
-Publisher: DataWriter, Subscription: DataReader, EventHandler of an event of time: EventCounts, in
-sim.ros.transport.
-Executor: SimExecutor, Task: TaskState, ROSClock and JumpHandle: ClockSwitch, in sim.ros.engine.
-Thread: Fiber, in sim.ros.fibers.
-"""
+"""What a run stores with the endpoints of services and actions."""
 
 from __future__ import annotations
 
@@ -16,6 +9,7 @@ from typing import Any, NamedTuple
 
 from sim.evidence import Call, Goal
 from sim.nanoseconds import Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.fibers.fiber import Program
 
 # A request that was sent: its number among those of its client, and its calls, one for each server.
@@ -73,6 +67,11 @@ class ActionRecord(EndpointRecord):
     goals: dict[bytes | int, Goal] = field(default_factory=dict)
     has_news: bool = True  # something may wait in its queues
     swept: Nanoseconds = -1  # when it last looked for goals that have expired
+
+
+SERVICE = Attached[ServiceRecord]()  # of a Service
+CLIENT = Attached[ClientRecord]()  # of a Client
+ACTION = Attached[ActionRecord]()  # of an ActionServer and of an ActionClient
 
 
 class DeclaredEndpoint(NamedTuple):

@@ -200,7 +200,7 @@ EVENT_NAMES: dict[type, str] = {
     GoalAnswered: "goal answered",
     GoalReceived: "goal received",
 }
-_TYPES = {name: type_ for type_, name in EVENT_NAMES.items()}
+_TYPES: dict[str, Any] = {name: type_ for type_, name in EVENT_NAMES.items()}
 
 
 def to_wire(event: Any) -> list[Any]:

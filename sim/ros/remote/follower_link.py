@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from sim.evidence import Call, Goal, Message
 from sim.ros.messages.codec import encode
+from sim.ros.recorder.records import CLIENT
 from sim.ros.remote import events
 from sim.ros.remote.new_items import NewItems
 from sim.ros.remote.process_link import ProcessLink
@@ -101,7 +102,7 @@ class FollowerLink(ProcessLink):
         super().__init__(engine, keys=1)
         recording, graph = engine.recording, engine.recording.graph
         self._new_calls, self._new_goals = NewItems(recording.calls), NewItems(recording.goals)
-        self._reports = {
+        self._reports: dict[str, Any] = {
             "nodes": NewItems(graph.nodes),
             "timers": NewItems(graph.timers),
             "logs": NewItems(recording.logs),
@@ -157,7 +158,7 @@ class FollowerLink(ProcessLink):
 
     def request_received(self, key: int, client: ProxyClient, number: int) -> None:
         """A client of the leader has sent a request to a service of this process."""
-        _, calls = client._sim.requests[number]
+        _, calls = CLIENT.of(client).requests[number]
         self._calls += [_OpenCall(key, call, SERVER_HERE, set()) for call in calls]
         self._new_calls.take()
 

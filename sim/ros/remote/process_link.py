@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from sim.evidence import Call, Message
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
+from sim.ros.recorder.records import SERVICE
 from sim.ros.remote.events import (
     EndpointDeclared,
     EndpointsDestroyed,
@@ -119,10 +120,8 @@ class ProcessLink:
     def collect_requests(self) -> None:
         """Queue the requests that clients of this process have sent to services of the other."""
         for service in self.proxies.services:
-            while service.of_action or service._sim.inbox or self.engine.transport.services is not None:
-                taken = service.take()
-                if taken is None:
-                    break
+            always = service.of_action or self.engine.transport.services is not None
+            while (always or SERVICE.of(service).inbox) and (taken := service.take()) is not None:
                 request = service.name, taken[0]
                 if request in self._repeated:  # it came from the other process: don't send it back
                     self._repeated.remove(request)

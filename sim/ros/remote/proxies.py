@@ -16,6 +16,7 @@ from rclpy.qos import QoSProfile
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from sim.ros.fibers.scheduler import outside_student_code
+from sim.ros.recorder.records import ACTION, SERVICE
 from sim.ros.remote.proxy import (
     Proxy,
     ProxyAction,
@@ -172,13 +173,13 @@ class Proxies:
         elif isinstance(proxy, ProxyService):
             self.services.append(proxy)
             calls.service_created(proxy)
-            proxy._sim.node = proxy.node.name
+            SERVICE.of(proxy).node = proxy.node.name
         elif isinstance(proxy, ProxyClient):
             self.clients[proxy.name].append(proxy)
             calls.client_created(proxy, proxy.node, proxy.name)
         elif proxy.of_action:
             self.action_subscriptions.append(proxy)
-        else:
+        elif isinstance(proxy, ProxySubscription):
             proxy.created_at = self._engine.now
             self.wanted[proxy.name].append(proxy)
             if self._engine.transport.links is not None:
@@ -211,7 +212,7 @@ class Proxies:
                 self.clients[proxy.name].remove(proxy)
             elif proxy.of_action:
                 self.action_subscriptions.remove(proxy)
-            else:
+            elif isinstance(proxy, ProxySubscription):
                 self.wanted[proxy.name].remove(proxy)
                 if proxy.reader is not None:
                     proxy.reader.close()
@@ -235,9 +236,9 @@ class Proxies:
 
     def action(self, node: str, name: str, type_: str) -> ProxyAction | None:
         """The action client or server that this node has."""
-        wanted = name, type_, node
-        found = (a for a in self.actions.values() if (a._sim.action, a._sim.type, a._sim.node) == wanted)
-        return next(found, None)
+        known = ((proxy, ACTION.of(proxy)) for proxy in self.actions.values())
+        wanted = (proxy for proxy, of in known if (of.action, of.type, of.node) == (name, type_, node))
+        return next(wanted, None)
 
     def close(self) -> None:
         """Destroy all proxies."""

@@ -55,7 +55,7 @@ class Proxy:
 
     handle_class: Any
 
-    def __init__(self, node: ProxyNode, type_: type, name: str, profile: QoSProfile) -> None:
+    def __init__(self, node: ProxyNode, type_: type[Any], name: str, profile: QoSProfile) -> None:
         self.node, self.type, self.name, self.qos_profile = node, type_, name, profile
         self.of_action = "/_action/" in name  # belongs to an action, so rclpy's classes don't show it
         with node.handle:

@@ -73,8 +73,8 @@ class Remote:
         its further arguments; empty for none.
         """
         program = functools.partial(self, preparation)
-        program.__name__ = type(self).__name__
-        program.runs_elsewhere = True
+        program.__name__ = type(self).__name__  # type: ignore[attr-defined]
+        program.runs_elsewhere = True  # type: ignore[attr-defined]
         return program
 
     def __call__(self, preparation: Sequence[Any] = ()) -> None:

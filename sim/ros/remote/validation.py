@@ -123,7 +123,7 @@ def valid_message_bytes(value: Any, cls: type, what: str) -> bytes:
 
 
 @functools.cache
-def valid_interface(name: str, kind: str) -> type:
+def valid_interface(name: str, kind: str) -> type[Any]:
     """The class of an installed message, service or action: `kind` is "msg", "srv" or "action"."""
     match = _INTERFACE.fullmatch(name)
     if match is None or match[2] != kind:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Duration, Time
 from control_msgs.action import FollowJointTrajectory
@@ -142,7 +142,7 @@ class TrajectoryServer:
         self._finish("canceled", Result.SUCCESSFUL, "The goal was canceled; the arm stops and stays.")
         return CancelResponse.ACCEPT
 
-    async def _execute(self, handle: ServerGoalHandle) -> Result:
+    async def _execute(self, handle: ServerGoalHandle) -> Any:
         how, result = await self._outcomes.pop(bytes(handle.goal_id.uuid))
         getattr(handle, how)()
         return result

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import rclpy
 from rclpy.executors import ExternalShutdownException
 
@@ -59,6 +61,6 @@ def _take_over_pond() -> Pond | None:
 
 
 def _create_pond() -> Pond:
-    scene = simulate(World.load("turtlesim"), 0)
+    scene: Any = simulate(World.load("turtlesim"), 0)
     scene.advance(engine().now / SECOND)
     return scene

@@ -46,7 +46,7 @@ class Arrivals:
         draw, delay = self._choices.order.delay(now, pair[0], writer.topic, pair[1])
         if delay:
             text = f"{writer.topic} of {pair[0]} reaches {pair[1]} {1000 * delay / SECOND:.1f} ms later"
-            self._choices.list(draw, pair[1], "message", text)
+            self._choices.note_departure(draw, pair[1], "message", text)
         key = pair if self._choices.order.level == HOST else (*pair, writer.topic)
         arrival = self._last[key] = max(now + delay, self._last.get(key, now))
         return max(arrival, self._kept.get((*pair, writer.topic), now))
@@ -63,7 +63,7 @@ class Arrivals:
         if delay:
             late = f"{1000 * delay / SECOND:.1f} ms later"
             text = f"{writer.topic}, which {pair[0]} has stored, reaches {pair[1]} {late}"
-            self._choices.list(draw, pair[1], "message", text)
+            self._choices.note_departure(draw, pair[1], "message", text)
         arrival = self._kept[*pair, writer.topic] = now + delay
         return arrival
 

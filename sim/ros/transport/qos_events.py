@@ -15,6 +15,7 @@ from rclpy.event_handler import EventHandler, QoSPublisherEventType, QoSSubscrip
 from rclpy.qos import LivelinessPolicy, QoSProfile
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.endpoint import TopicEndpoint
@@ -57,6 +58,9 @@ class EventCounts:
         return SimpleNamespace(**self._counts, **changes)
 
 
+EVENT_COUNTS = Attached[EventCounts]()  # of an EventHandler whose events depend on time
+
+
 def event_counts(
     run: TransportContext, handlers: Iterable[EventHandler], kinds: Mapping[Any, tuple[str, ...]]
 ) -> dict[Any, EventCounts]:
@@ -67,7 +71,8 @@ def event_counts(
     found = {}
     for handler in handlers:
         if handler.event_type in kinds:
-            found[handler.event_type] = handler._sim = EventCounts(run.scheduler, kinds[handler.event_type])  # type: ignore[attr-defined]
+            counts = EventCounts(run.scheduler, kinds[handler.event_type])
+            found[handler.event_type] = EVENT_COUNTS.attach(handler, counts)
     return found
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from rclpy.event_handler import EventHandler
 from rclpy.qos import QoSProfile
 
+from sim.ros.attached import Attached
 from sim.ros.fibers.waiter import Waiter
 from sim.ros.messages.decoder import decode_message
 from sim.ros.rclpy_cpp import cpp
@@ -98,3 +99,6 @@ class DataReader(TopicEndpoint):
         if self._deadline is not None:
             self._deadline.cancel()
         self.on_close(self)
+
+
+READER = Attached[DataReader]()  # of a Subscription

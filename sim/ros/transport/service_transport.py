@@ -21,7 +21,7 @@ from sim.network import LAPTOP
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.records import ClientRecord
+from sim.ros.recorder.records import ACTION, CLIENT, SERVICE, ClientRecord
 from sim.ros.transport.action_endpoints import take_at_client, take_at_server
 from sim.ros.transport.channels import RESPONSE
 from sim.ros.transport.context import TransportContext
@@ -96,7 +96,7 @@ class ServiceTransport:
         request, header, calls = self._queue(service, "requests").take() or (None, None, [])
         if header is None:
             return None
-        service._sim.inbox.appendleft((header.request_id.sequence_number, calls))
+        SERVICE.of(service).inbox.appendleft((header.request_id.sequence_number, calls))
         return request, header
 
     def _collect_requests(self, service: Any) -> None:
@@ -109,7 +109,7 @@ class ServiceTransport:
             queue.put(due, (request, header, calls))
 
     def _due_request(self, service: Any, number: int, request: Any) -> tuple[Nanoseconds | None, list[Call]]:
-        recorder, name, server = self._recorder, service.service_name, service._sim.node
+        recorder, name, server = self._recorder, service.service_name, SERVICE.of(service).node
         if PART in name:
             action, _, part = name.partition(PART)
             client = recorder.goals.client_of(action, _goal_id(request))
@@ -127,7 +127,8 @@ class ServiceTransport:
             header, response = client.handle.take_response(client.srv_type.Response) or (None, None)
             if header is None:
                 return queue.take()
-            queue.put(self._due_response(client._sim, header.request_id.sequence_number), (header, response))
+            due = self._due_response(CLIENT.of(client), header.request_id.sequence_number)
+            queue.put(due, (header, response))
 
     def _due_response(self, client: ClientRecord, number: int) -> Nanoseconds | None:
         if PART in client.service:
@@ -155,10 +156,11 @@ class ServiceTransport:
         return self._taken(server, ("goal", "cancel", "result"))
 
     def _collect_at_server(self, server: Any) -> None:
-        goals, action = self._recorder.goals, server._sim.action
+        goals, record = self._recorder.goals, ACTION.of(server)
         while data := take_at_server(server):
             for kind, (header, request) in data.items():
-                due = self._due(kind, action, goals.client_of(action, _goal_id(request)), server._sim.node)
+                sender = goals.client_of(record.action, _goal_id(request))
+                due = self._due(kind, record.action, sender, record.node)
                 self._queue(server, kind).put(due, (header, request))
 
     def at_client(self, client: Any) -> dict[str, Any]:
@@ -167,11 +169,11 @@ class ServiceTransport:
         return self._taken(client, ("goal", "cancel", "result", "feedback", "status"))
 
     def _collect_at_client(self, client: Any) -> None:
-        action = client._sim.action
-        server = self._recorder.goals.server_of(action)
+        record = ACTION.of(client)
+        server = self._recorder.goals.server_of(record.action)
         while data := take_at_client(client):
             for kind, what in data.items():
-                self._queue(client, kind).put(self._due(kind, action, server, client._sim.node), what)
+                self._queue(client, kind).put(self._due(kind, record.action, server, record.node), what)
 
     def _taken(self, endpoint: Any, kinds: tuple[str, ...]) -> dict[str, Any]:
         found = {kind: self._queue(endpoint, kind).take() for kind in kinds}

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from sim.nanoseconds import Nanoseconds
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.recorder.recorder import Recorder
+from sim.ros.recorder.records import ACTION, SERVICE
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.peer import Peer
 from sim.ros.transport.service_transport import ServiceTransport
@@ -35,8 +36,9 @@ class Transport(TransportContext):
         """A client has sent a request to the services of this resolved name."""
         new = False
         for server in self.recorder.calls.servers(service):
-            new |= not server._sim.called
-            server._sim.called = server._sim.has_requests = True
+            record = SERVICE.of(server)
+            new |= not record.called
+            record.called = record.has_requests = True
         if new:  # executors list only services that have been called: a node has seven of its own
             self.scheduler.waiters.endpoints_changed()
         self.scheduler.wake_all()
@@ -44,5 +46,5 @@ class Transport(TransportContext):
     def sent_by_middleware(self) -> None:
         """C++ code has sent a response or a message that an endpoint of an action may have to take."""
         for endpoint in self.recorder.goals.endpoints():
-            endpoint._sim.has_news = True
+            ACTION.of(endpoint).has_news = True
         self.scheduler.wake_all()

@@ -11,6 +11,7 @@ from rclpy.event_handler import EventHandler
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.attached import Attached
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 from sim.ros.rclpy_cpp import cpp
@@ -184,3 +185,6 @@ class DataWriter(PublisherEndpoint):
             if reader.liveliness is not None:
                 reader.liveliness.unmatched(self)
         self.on_close(self)
+
+
+WRITER = Attached[DataWriter]()  # of a Publisher

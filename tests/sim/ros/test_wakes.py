@@ -12,6 +12,7 @@ from std_msgs.msg import Int32
 
 from sim import run
 from sim.ros.engine.ready_scan import ReadyScan
+from sim.ros.engine.sim_executor import EXECUTOR
 
 
 @pytest.fixture
@@ -97,7 +98,7 @@ def test_a_service_that_has_not_been_called_is_not_listed():
             self.create_timer(0.1, self.look)
 
         def look(self):
-            entities = [entity for _, entity, _ in self.executor._sim.scan._entries]
+            entities = [entity for _, entity, _ in EXECUTOR.of(self.executor).scan._entries]
             listed.append([entity.service_name for entity in entities if isinstance(entity, Service)])
 
     class Client(Node):
