@@ -30,7 +30,7 @@ teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
 # Two processes more than cores: browsers, kernels and robots that run in real time are often waited for.
 TESTERS = $$($(BIN)/python -c "import os; print(2 + len(os.sched_getaffinity(0)))")
 TESTS = $(if $(filter extras,$(firstword $(ARGS))),-m 'extras and not soak' $(wordlist 2,99,$(ARGS)),$(ARGS))
-test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some, ARGS=extras those of a class's extras)
+test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some, ARGS=extras what only CI runs each time)
 	@sh .ci/javascript install
 	$(BIN)/python -m pytest -n $(TESTERS) --dist loadfile $(TESTS)
 

@@ -31,8 +31,10 @@ IN_LAB = "cells_in_lab", "course", "play_in_lab", "replay_in_lab", "students_lab
 LAB = [f"tests/browser/test_{name}.py" for name in IN_LAB]
 ON_HUB = "browser/test_hub_day", "marking/extras/hub/test_killed_hub", "marking/extras/hub/test_real_hub"
 HUB = [f"tests/{name}.py" for name in ON_HUB]
-# What a class may use besides marking: only CI, `make test ARGS=extras` and runs that name them test it.
-EXTRAS = "tests/marking/extras", "tests/browser/test_hub_day.py", "tests/browser/test_league_page.py"
+# What a class may use besides marking, and pages in the browser but for the main ones: only CI, `make test
+# ARGS=extras` and runs that name them test it.
+EXTRAS = "tests/marking/extras", "tests/browser"
+MAIN = tuple(f"tests/browser/test_{name}" for name in ("cells_in_lab", "course", "students_lab", "terminal"))
 # What is run on another ROS distribution: the engine, two assignments, scores in two processes, two lessons.
 ASSIGNMENTS = [f"tests/exercises/test_{name}.py" for name in ("nodes", "topics", "remote")]
 ON_OTHERS = "tests/sim/ros/", *ASSIGNMENTS
@@ -110,9 +112,9 @@ def differences_of(distro: str) -> dict[str, str]:
 
 
 def is_extra(nodeid: str, arguments: list[str]) -> bool:
-    """Whether a test is one of a class's extras, and no argument of pytest names such a file or folder."""
+    """Whether a test is one of the extras, and no argument of pytest names such a file or folder."""
     named = any(place in argument for argument in arguments for place in EXTRAS)
-    return nodeid.startswith(EXTRAS) and not named
+    return nodeid.startswith(EXTRAS) and not nodeid.startswith(MAIN) and not named
 
 
 @pytest.fixture(autouse=True)

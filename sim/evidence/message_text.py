@@ -16,9 +16,17 @@ SKIPPED_FIELDS = ("header", "covariance", "stamp")  # whose numbers are not plot
 class TopicMessage(Protocol):
     """A message with its topic, its type and its stamp (s); reading `message` may decode it."""
 
-    topic: str
-    type: str
-    stamp: float
+    @property
+    def topic(self) -> str:
+        """Its topic."""
+
+    @property
+    def type(self) -> str:
+        """Its type."""
+
+    @property
+    def stamp(self) -> float:
+        """Its stamp (s)."""
 
     @property
     def message(self) -> Any:

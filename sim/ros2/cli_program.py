@@ -78,7 +78,8 @@ def _started(arguments: Sequence[str]) -> Process:
         return Process(main, arguments=options.argv)
     given = [options.package_name, options.launch_file_name, *options.launch_arguments]
     path, rest = find_launch_file([each for each in given if each is not None])
-    return as_launch_program(Process(path, arguments=rest))
+    program: Process = as_launch_program(Process(path, arguments=rest))
+    return program
 
 
 def _execute(arguments: Sequence[str]) -> int:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, NoReturn
 
 from sim.ros2.absent import absent_command, absent_option
-from sim.ros2.system import CliError, System
+from sim.ros2.system import CliError
 from sim.suggestions import closest_match
 
-VerbFunction = Callable[[System, argparse.Namespace], None]  # gets an Output if it is without_system
+VerbFunction = Callable[[Any, argparse.Namespace], None]  # gets a System; an Output if without_system
 # Returns completions of an argument, from the system (None if without_system) and the arguments before it.
 Completer = Callable[[Any, argparse.Namespace], list[str]]
 USAGE_ERROR = 2  # exit status, as argparse's
@@ -77,9 +77,9 @@ class UsageError(CliError):
 class Parser(argparse.ArgumentParser):
     """Raises an exception where argparse exits, and suggests the correct argument for a misspelt one."""
 
-    def parse_args(self, *arguments: Any) -> argparse.Namespace:
+    def parse_args(self, args: Iterable[str] | None = None, namespace: Any = None) -> Any:
         """Work like `ArgumentParser.parse_args`; name what the official command has and this one lacks."""
-        options, unknown = self.parse_known_args(*arguments)
+        options, unknown = self.parse_known_args(args, namespace)
         words = f"{options.command or ''} {getattr(options, 'verb', None) or ''}".strip()
         for option in unknown:
             if absent := absent_option(words, option):

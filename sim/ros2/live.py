@@ -23,6 +23,7 @@ SETTLING_TIME = 0.5  # s without a change of the graph, as in the official tools
 POLL_GRAPH = 0.05  # s between two checks of the graph
 MAX_RETRIES = 30  # to find a name: another process may be slow
 MAX_SETTLING = 10  # times the settling time, while a participant exists whose endpoints are not known yet
+_Ends = list[tuple[str, list[str]]]  # their names and types
 
 
 class LiveSystem(System):
@@ -121,8 +122,8 @@ class LiveSystem(System):
         """Work like `System`, until Ctrl-C."""
         received: list[ReceivedMessage] = []
 
-        def make_callback(topic: str, type_: str) -> Callable[[bytes, dict], None]:
-            def on_message(raw: bytes, info: dict) -> None:
+        def make_callback(topic: str, type_: str) -> Callable[..., None]:
+            def on_message(raw: bytes, info: dict[str, Any]) -> None:
                 received.append(ReceivedMessage(self.now, info["source_timestamp"] * 1e-9, topic, type_, raw))
 
             return on_message
@@ -179,7 +180,7 @@ def endpoints_seen_by(node: Node) -> list[Endpoint]:
     return found
 
 
-def _endpoints_of(query: Callable[..., list], name: str, space: str) -> list:
+def _endpoints_of(query: Callable[..., _Ends], name: str, space: str) -> _Ends:
     """A node's endpoints by one of rclpy's queries; none if the node has exited meanwhile."""
     try:
         return query(name, space)

@@ -24,13 +24,15 @@ def values_of(system: System, node: str, names: list[str]) -> list[ParameterValu
     if system.finished:
         recorded = _recorded(system, node)
         return [recorded[name] for name in names] if set(names) <= set(recorded) else []
-    return system.call(GetParameters, f"{node}/get_parameters", GetParameters.Request(names=names)).values
+    response = system.call(GetParameters, f"{node}/get_parameters", GetParameters.Request(names=names))
+    values: list[ParameterValue] = response.values
+    return values
 
 
 def _recorded(system: System, node: str) -> dict[str, ParameterValue]:
     """The values at the end of a run, from its parameter events."""
     values: dict[str, ParameterValue] = {}
-    for message in system.subscribe({TOPIC: TYPE}):
+    for message in filter(None, system.subscribe({TOPIC: TYPE})):
         event = decode(TYPE, message.raw)
         if event.node == node:
             changed = [*event.new_parameters, *event.changed_parameters]

@@ -41,9 +41,10 @@ def completions(line: str) -> list[str]:
         default_completer=SuppressCompleter(),
         append_space=False,
     )
-    found = (finder.rl_complete(line, number) for number in itertools.count())
+    numbers = itertools.count()
+    found = iter(lambda: finder.rl_complete(line, next(numbers)), None)
     before = len(line) - len(line.split(" ")[-1])
-    return [whole[before:].rstrip() for whole in itertools.takewhile(lambda whole: whole is not None, found)]
+    return [whole[before:].rstrip() for whole in found]
 
 
 def _make_completer(completer: Completer, without_system: bool) -> Callable[..., list[str]]:

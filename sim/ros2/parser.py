@@ -37,7 +37,7 @@ FAILED = 1  # exit status
 def load_group(name: str, verb: str = "") -> Group:
     """The verbs of a command. verb: the only one that is needed, if the command has it; "" for all."""
     first, *others = COMMANDS[name][0]
-    group = getattr(importlib.import_module(f"sim.ros2.verbs.{first}"), name)
+    group: Group = getattr(importlib.import_module(f"sim.ros2.verbs.{first}"), name)
     for module in others:
         if not verb or verb not in group.verbs:
             importlib.import_module(f"sim.ros2.verbs.{module}")

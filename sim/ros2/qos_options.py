@@ -49,7 +49,7 @@ def profile_from_options(options: Namespace, default: str) -> QoSProfile | None:
     lease = options.qos_liveliness_lease_duration_seconds
     if not any((options.qos_profile, options.qos_depth, lease, *chosen.values())):
         return None
-    profile = copy.copy(QoSPresetProfiles.get_from_short_key(options.qos_profile or default))
+    profile: QoSProfile = copy.copy(QoSPresetProfiles.get_from_short_key(options.qos_profile or default))
     for name, value in chosen.items():
         if value:
             setattr(profile, name, POLICIES[name].get_from_short_key(value))

@@ -34,11 +34,11 @@ class Style(NamedTuple):
     flow: bool = False  # print sequences on one line
 
 
-class _Dumper(yaml.Dumper):
+class _Dumper(yaml.Dumper):  # type: ignore[misc]  # yaml has no types
     """Keeps the order of the fields, and prints each on its own line."""
 
 
-def _fields(dumper: yaml.Dumper, fields: dict) -> yaml.Node:
+def _fields(dumper: yaml.Dumper, fields: dict[str, Any]) -> yaml.Node:
     pairs = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in fields.items()]
     return yaml.MappingNode("tag:yaml.org,2002:map", pairs)
 
@@ -53,13 +53,15 @@ def as_yaml(message: Any, style: Style = Style()) -> str:  # noqa: B008  (a tupl
 
 def as_dict(message: Any, style: Style) -> dict[str, Any]:
     """A message as a dictionary, with values as they are printed."""
-    return _plain(message, None, style)
+    values: dict[str, Any] = _plain(message, None, style)
+    return values
 
 
 def dump(values: dict[str, Any], style: Style) -> str:
     """Return what `as_dict` returns as YAML, with a final newline."""
     look = {"allow_unicode": True, "width": sys.maxsize, "default_flow_style": style.flow}
-    return yaml.dump(values, Dumper=_Dumper, **look)
+    text: str = yaml.dump(values, Dumper=_Dumper, **look)
+    return text
 
 
 def as_csv(message: Any, style: Style = Style()) -> str:  # noqa: B008

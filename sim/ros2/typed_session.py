@@ -178,8 +178,8 @@ class TypedSession:
             raise InvalidLine(f"bash: {' '.join(words[1:])}: No such file or directory: {reason}")
 
     def _export(self, line: Line, terminal: Terminal, words: list[str]) -> None:
-        given = [found.groups() for found in map(ASSIGNMENT.fullmatch, words[1:]) if found]
-        terminal.variables = {**terminal.variables, **dict(given)}
+        given = {found[1]: found[2] for found in map(ASSIGNMENT.fullmatch, words[1:]) if found}
+        terminal.variables = {**terminal.variables, **given}
 
     def _sleep(self, line: Line, terminal: Terminal, words: list[str]) -> None:
         text = " ".join(words[1:])

@@ -16,13 +16,13 @@ class LiveGraph:
 
     def __init__(self, run: Any) -> None:
         self._run, self._lock = run, Lock()
-        self._state: list[Any] = []
+        self._state: tuple[list[str], list[Endpoint]] | None = None
         self._data: dict[str, Any] = {}
 
     def __call__(self) -> dict[str, Any]:
         """The graph as returned by `graph_data`. Thread-safe."""
         with self._lock:
-            state = [self._nodes(), self._ends()]
+            state = self._nodes(), self._ends()
             if state != self._state:
                 recording = Recording(course_nodes=self._course_nodes)
                 recording.graph.nodes, recording.graph.endpoints = state

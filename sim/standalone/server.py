@@ -112,6 +112,7 @@ def user_of_connection(
 class _Http(ThreadingHTTPServer):
     daemon_threads = True
     block_on_close = False
+    server_address: tuple[str, int]
     owner: PageServer
 
     def verify_request(self, request: Any, client_address: tuple[str, int]) -> bool:

@@ -40,9 +40,10 @@ class MovingPicture:
         return self._html(shared=False)
 
     def _html(self, *, shared: bool) -> str:
-        recording = self._recording
+        recording, world = self._recording, self._recording.world
+        assert world is not None  # what moves is in it
         failure = f"; {recording.failure}" if recording.failure else ""
-        description = f"The run in the world {recording.world.name}, {recording.stamp:g} s{failure}"
+        description = f"The run in the world {world.name}, {recording.stamp:g} s{failure}"
         data = pack_animation(recording, self._speed)
         return player_html(data, small_png(plot_path(recording)), description, shared=shared)
 

@@ -14,8 +14,8 @@ MAX_POSE_GAP = 0.1  # s; a body without a pose for longer was not in the world
 
 def body_tracks(recording: Recording) -> list[list[Pose]]:
     """The poses of each moving body of a run, in the order of `recording.bodies`."""
-    bodies = recording.bodies
-    driven = recording.world.driven_body if bodies else None
+    bodies, world = recording.bodies, recording.world
+    driven = world.driven_body if bodies and world is not None else None
     return [recording.path if body.name == driven else recording.tracks.get(body.name, []) for body in bodies]
 
 

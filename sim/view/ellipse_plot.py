@@ -61,6 +61,7 @@ def _in_map(recording: Recording, message: Any) -> tuple[float, float, np.ndarra
     spread = np.reshape(message.pose.covariance, (6, 6))[:2, :2]
     if message.header.frame_id == "map":
         return place.x, place.y, spread
+    assert recording.world is not None  # `world_figure` has drawn it
     x0, y0, yaw0 = recording.world.start
     c, s = math.cos(yaw0), math.sin(yaw0)
     turned = np.array([[c, -s], [s, c]])

@@ -30,17 +30,16 @@ class Placement(NamedTuple):
         """The other frame, placed in this one."""
         x, y, z, w = self.rotation
         back = (-x, -y, -z, w)
-        position = tuple(-value for value in _turned(back, self.position))
-        return Placement(position, back)
+        u, v, n = _turned(back, self.position)
+        return Placement((-u, -v, -n), back)
 
     def of(self, inner: Placement) -> Placement:
         """Return what is placed in this frame, placed in the frame of this one."""
         x, y, z, w = self.rotation
         a, b, c, d = inner.rotation
-        turned = _turned(self.rotation, inner.position)
-        position = tuple(one + other for one, other in zip(self.position, turned, strict=True))
+        (u, v, n), (du, dv, dn) = self.position, _turned(self.rotation, inner.position)
         return Placement(
-            position,
+            (u + du, v + dv, n + dn),
             (
                 w * a + x * d + y * c - z * b,
                 w * b - x * c + y * d + z * a,

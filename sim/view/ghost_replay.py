@@ -21,11 +21,12 @@ SPEED = 10.0  # initial simulated seconds per second of playback
 
 def pack_motion(recording: Recording) -> str:
     """The motion and contacts of a run with a world, for `player`. Raises ValueError if nothing moved."""
-    end = run_end(recording)
+    world, end = recording.world, run_end(recording)
+    assert world is not None  # see above
     return deflated(
         {
             **{"version": VERSION, "speed": SPEED, "end": end, "scans": [], "logs": [], "topics": []},
-            **{"world": world_data(recording.world, recording.bodies), **motion(recording)},
+            **{"world": world_data(world, recording.bodies), **motion(recording)},
             "marks": mark_rows(contact_marks(recording), (end, "end", "the run ended.", None)),
         }
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
@@ -30,12 +31,12 @@ STYLES = {
 class GraphPlot(Plot):
     """A plot of a graph."""
 
-    text = ""
+    words = ""
 
     @property
     def description(self) -> str:
         """A line for each topic, service and action, then the missing connections with their reasons."""
-        return self.text
+        return self.words
 
 
 def plot_graph(recording: Recording) -> GraphPlot:
@@ -63,7 +64,7 @@ def draw_diagram(diagram: GraphDiagram, failure: str = "") -> GraphPlot:
     for line, style in lines:
         height += LINE
         axes.text(0, height, line, fontsize=FONT, va="center", parse_math=False, **style)
-    figure.text = "\n".join(filter(None, (diagram.text, failure)))
+    figure.words = "\n".join(filter(None, (diagram.text, failure)))
     return figure
 
 
@@ -77,7 +78,7 @@ def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]
     return figure, axes
 
 
-def _wrapped(diagram: GraphDiagram, width: float, failure: str) -> list[tuple[str, dict[str, str]]]:
+def _wrapped(diagram: GraphDiagram, width: float, failure: str) -> list[tuple[str, dict[str, Any]]]:
     """The lines below the graph, each with its text properties."""
     red, gray, most = {"color": FAILURE}, {"color": SOLID}, int(width * CHARACTERS)
     lines, drawn = [], {arrow.gap for arrow in diagram.arrows.values()}
@@ -94,7 +95,8 @@ def _draw_box(axes: Axes, placed: PlacedBox) -> None:
     round_ = min(height, width) / 2 if box.kind == "node" else 0.06 if box.kind == "action" else 0.0
     style = f"round,pad=0,rounding_size={round_}" if round_ else "square,pad=0"
     corner = x - width / 2, y - height / 2
-    look = {"facecolor": fill, "edgecolor": edge, "linewidth": 2.2 if box.kind == "service" else 1.1}
+    look: dict[str, Any] = {"facecolor": fill, "edgecolor": edge}
+    look["linewidth"] = 2.2 if box.kind == "service" else 1.1
     axes.add_patch(FancyBboxPatch(corner, width, height, boxstyle=style, **look))
     first = y - LINE * (len(box.lines) - 1) / 2
     for number, line in enumerate(box.lines):
@@ -107,7 +109,7 @@ def _draw_arrow(axes: Axes, placed: PlacedArrow) -> None:
     arrow, points, middle = placed
     muted = arrow.end[0] == "rest"
     color = WARNING if arrow.gap else MUTED if muted else SOLID
-    look = {"linewidth": 1.8, "linestyle": (0, (4, 2))} if arrow.gap else {"linewidth": 1.0}
+    look: dict[str, Any] = {"linewidth": 1.8, "linestyle": (0, (4, 2))} if arrow.gap else {"linewidth": 1.0}
     look |= {"arrowstyle": "-" if muted else "-|>,head_length=0.35,head_width=0.18", "color": color}
     look |= {"mutation_scale": 14, "zorder": 0.5, "shrinkA": 0, "shrinkB": 0}
     curves = Path(points, [Path.MOVETO, *[Path.CURVE4] * (len(points) - 1)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from grandalf.graphs import Edge, Graph, Vertex
 from grandalf.layouts import SugiyamaLayout
@@ -16,13 +16,13 @@ BETWEEN_LAYERS, BETWEEN_BOXES = 0.38, 0.16  # inches
 class LayeredLayout(NamedTuple):
     """Centers of boxes and paths of arrows, in inches: along the sequence of layers, and across it."""
 
-    centers: dict
-    paths: dict  # (begin, end) to points, including the two boxes' centers
+    centers: dict[Any, Point]
+    paths: dict[tuple[Any, Any], list[Point]]  # (begin, end) to points, including the two boxes' centers
     along: float
     across: float
 
 
-class _Vertex(Vertex):
+class _Vertex(Vertex):  # type: ignore[misc]  # grandalf has no types
     """A vertex with a deterministic hash; the default one is its address, which differs between runs."""
 
     def __init__(self, key: Hashable, number: int) -> None:
@@ -33,7 +33,7 @@ class _Vertex(Vertex):
         return self._number
 
 
-class _Edge(Edge):
+class _Edge(Edge):  # type: ignore[misc]
     """An edge with a deterministic hash."""
 
     def __init__(self, begin: Vertex, end: Vertex, number: int) -> None:

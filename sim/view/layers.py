@@ -23,7 +23,8 @@ Layer = dict[str, Any]  # stamp (ms), topic, kind, data, and of a frame its name
 
 def layers_of(recording: Recording, *, quiet: bool = False) -> list[Layer]:
     """The layers of a run in the order of time: those that are always drawn, or the quiet ones."""
-    frames, found = FrameTree(recording.world), []
+    frames = FrameTree(recording.world)
+    found: list[Layer] = []
     for item in _chosen(recording, quiet):
         if _kind(item) == "frames":
             frames.add(decoded(item))

@@ -53,8 +53,9 @@ class LiveView(anywidget.AnyWidget):
     _esm = script("live.js")
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
-    layers = traitlets.List().tag(sync=True)  # maps, plans and goals
-    quiet = traitlets.List().tag(sync=True)  # the layers that the page may ask for: topics and their kinds
+    layers: traitlets.List[Any] = traitlets.List().tag(sync=True)  # maps, plans and goals
+    # the layers that the page may ask for: topics and their kinds
+    quiet: traitlets.List[Any] = traitlets.List().tag(sync=True)
     shown = traitlets.List(traitlets.Unicode(), [OPEN], maxlen=MAX_SHOWN).tag(sync=True)  # it asks for these
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
     inputs = traitlets.List(traitlets.Unicode()).tag(sync=True)  # what nodes read besides: "keys", "points"
@@ -71,7 +72,7 @@ class LiveView(anywidget.AnyWidget):
 
     def show(self) -> None:
         """Display the view in the output of the running cell."""
-        bundle = self._repr_mimebundle_()
+        bundle: Any = self._repr_mimebundle_()
         data = bundle[0] if isinstance(bundle, tuple) else bundle
         # The course's JupyterLab extension shows it in a panel and a line here; other pages ignore PANEL.
         self._display = display({PANEL: {"model": self.model_id}, **data}, raw=True, display_id=True)

@@ -94,7 +94,7 @@ def _motion(track: Sequence[Pose]) -> dict[str, Any]:
 
 
 def _layers(grid: Any, plan: list[tuple[float, float]], marked: Mapping[str, Any]) -> list[dict[str, Any]]:
-    found = [{"kind": "map", "topic": "map", "data": grid_data(grid)}]
+    found: list[dict[str, Any]] = [{"kind": "map", "topic": "map", "data": grid_data(grid)}]
     if plan:
         found.append({"kind": "plan", "topic": "plan", "data": [meters(*p) for p in thinned(plan, PLAN)]})
     for number, (name, places) in enumerate(marked.items()):
@@ -130,7 +130,7 @@ def _draw_cells(axes: Axes, grid: Any) -> None:
     left, bottom, right, top = _bounds(grid)
     values = np.array(grid.data, dtype=np.int16).reshape(grid.info.height, grid.info.width)
     shades = np.clip(values, -1, 100) + 1
-    look = {"cmap": _SHADES, "vmin": 0, "vmax": 101, "interpolation": "nearest"}
+    look: dict[str, Any] = {"cmap": _SHADES, "vmin": 0, "vmax": 101, "interpolation": "nearest"}
     axes.imshow(shades, origin="lower", extent=(left, right, bottom, top), **look)
 
 

@@ -52,7 +52,7 @@ class OrderGame(anywidget.AnyWidget):
 
     def show(self) -> None:
         """Display it in the output of the running cell; pages without a kernel show how it begins."""
-        bundle = self._repr_mimebundle_()
+        bundle: Any = self._repr_mimebundle_()
         data = bundle[0] if isinstance(bundle, tuple) else bundle
         display({**data, "text/html": self._page(), "text/plain": repr(self)}, raw=True)
 

@@ -23,11 +23,12 @@ def pack_animation(recording: Recording, speed: float) -> str:
 
 
 def _packed(recording: Recording, **settings: bool | float) -> str:
-    end = run_end(recording)
+    world, end = recording.world, run_end(recording)
+    assert world is not None  # see above
     data = {
         **{"version": VERSION, "run": run_key(recording), "end": end, **settings},
         **{"failure": recording.failure[:FAILURE], "scans": [], "logs": [], "topics": []},
-        **{"world": world_data(recording.world, recording.bodies), **motion(recording)},
+        **{"world": world_data(world, recording.bodies), **motion(recording)},
         "layers": layers_of(recording),
         "marks": mark_rows(event_marks(recording), (end, "end", "the run ended.", None)),
     }

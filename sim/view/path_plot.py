@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -57,7 +58,7 @@ def plot_path(recording: Recording) -> Plot:
             color = ROBOTS[robots.index(body) % len(ROBOTS)]
             path = [pose.x for pose in track], [pose.y for pose in track]
             style = STYLES[robots.index(body) % len(STYLES)]
-            look = {"color": color, "linestyle": style, "linewidth": 1.8}
+            look: dict[str, Any] = {"color": color, "linestyle": style, "linewidth": 1.8}
             axes.plot(*path, **look, label="path" if first else body.name)
         else:
             color = KINDS.get(body.kind, MUTED)
@@ -89,6 +90,7 @@ def world_figure(recording: Recording) -> tuple[Plot, Axes]:
     Raises ValueError for a run in which nothing moves.
     """
     world, tracks = recording.world, moving_tracks(recording)
+    assert world is not None  # what moves is in it
     figure, axes = plot(6.4, 4.8)
     if recording.drawing is not None:
         draw_ground(axes, world, recording.drawing.ground)
@@ -128,7 +130,7 @@ def draw_world(axes: Axes, world: World) -> None:
 
 def draw_body(axes: Axes, body: Body, pose: Pose, color: str, alpha: float, label: str | None) -> None:
     """Draw a moving body at a pose, with its heading if it is a robot."""
-    look = {"facecolor": color, "edgecolor": color, "alpha": alpha, "label": label}
+    look: dict[str, Any] = {"facecolor": color, "edgecolor": color, "alpha": alpha, "label": label}
     if body.outline:
         axes.add_patch(Polygon(placed(body.outline, *pose[1:]), **look))
     else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import textwrap
-from typing import Any, TypeVar
+from typing import Any, TypeVar, overload
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -78,7 +78,11 @@ class Plot(Figure):
 P = TypeVar("P", bound=Plot)
 
 
-def plot(width: float, height: float, kind: type[P] = Plot) -> tuple[P, Axes]:
+@overload
+def plot(width: float, height: float) -> tuple[Plot, Axes]: ...
+@overload
+def plot(width: float, height: float, kind: type[P]) -> tuple[P, Axes]: ...
+def plot(width: float, height: float, kind: type[Plot] = Plot) -> tuple[Plot, Axes]:
     """An empty figure with one pair of axes; sizes in inches, of 100 pixels each."""
     figure = kind(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
@@ -105,7 +109,8 @@ def png(figure: Figure) -> bytes:
     """The figure as a PNG; equal figures give equal bytes."""
     buffer = io.BytesIO()
     # savefig gives the same result, but draws the figure an additional time.
-    FigureCanvasAgg(figure).print_png(buffer, metadata={"Software": None})
+    canvas: Any = FigureCanvasAgg(figure)
+    canvas.print_png(buffer, metadata={"Software": None})
     return buffer.getvalue()
 
 

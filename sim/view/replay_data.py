@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from sim.evidence import Recording, rate, stamps
+from sim.evidence import Recording, rate
 from sim.view.body_tracks import body_tracks, pose_at, presence_intervals
 from sim.view.graph_data import graph_data
 from sim.view.last_event import last_event
@@ -91,7 +91,7 @@ def motion(recording: Recording) -> dict[str, Any]:
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
         raise ValueError("nothing has moved in this run yet: it has no pose to draw")
-    every = sorted({stamp for track in tracks for stamp in stamps(track)})
+    every = sorted({pose.stamp for track in tracks for pose in track})
     times = thinned(every, POSES // len(tracks))
     columns, there = [], []
     for track in tracks:
@@ -104,7 +104,8 @@ def motion(recording: Recording) -> dict[str, Any]:
 
 def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
     received = [item for item in recording.published if (item.type, item.sender) == LIDAR]
-    if not received or not recording.path:
+    world = recording.world
+    if not received or not recording.path or world is None:
         return
     count = max(1, math.ceil(run_end(recording) * SCAN_RATE))
     most = min(max(RANGES // count, RAYS[0]), RAYS[1])
@@ -120,7 +121,7 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
         pose = pose_at(recording.path, item.stamp)
         yield {
             "stamp": round(item.stamp * 1000),
-            "pose": [round(value, 3) for value in recording.world.lidar.mounted_at(pose[1:])],
+            "pose": [round(value, 3) for value in world.lidar.mounted_at(pose[1:])],
             "start": scan.angle_min,
             "step": scan.angle_increment * stride,
             "far": scan.range_max,

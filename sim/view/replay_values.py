@@ -45,13 +45,13 @@ def strip_of(recording: Recording) -> dict[str, Any]:
 def _moments(recording: Recording) -> list[float]:
     """Return when the strip may change."""
     if recording.path:
-        return stamps(recording.path)
+        return [pose.stamp for pose in recording.path]
     return sorted({item.stamp for item in recording.published})
 
 
 def _orders(recording: Recording) -> list[tuple[float, Any]]:
     """The messages of a warehouse's desk, with their stamps."""
-    if recording.world.warehouse is None:
+    if recording.world is None or recording.world.warehouse is None:
         return []
     return [(item.stamp, decoded(item)) for item in recording.messages("/orders") if item.type == ORDER]
 
@@ -60,7 +60,8 @@ def _readings_at(
     recording: Recording, moment: float, newest: Callable[..., Any], orders: Sequence[tuple[float, Any]]
 ) -> Any:
     path, world = recording.path, recording.world
-    pose = pose_at(path, moment)[1:4] if path and world.driven_body is not None else None
+    driven = None if world is None else world.driven_body
+    pose = pose_at(path, moment)[1:4] if path and driven is not None else None
     placed = [order for stamp, order in orders if order is not None and stamp <= moment + 1e-6]
     contacts = [contact for contact in recording.contacts if contact.stamp <= moment + 1e-6]
 

@@ -62,7 +62,8 @@ def scan_points(scan: Any, poses: np.ndarray, mount: Pose) -> np.ndarray:
     stamp = scan.header.stamp.sec + scan.header.stamp.nanosec / 1e9
     x, y, yaw = (np.interp(stamp, poses[:, 0], poses[:, column]) for column in (1, 2, 3))
     cos, sin = math.cos(yaw), math.sin(yaw)
-    return points @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
+    moved: np.ndarray = points @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
+    return moved
 
 
 def _moved(ranges: np.ndarray, angles: np.ndarray, mount: Pose) -> np.ndarray:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from sim.world import PenDrawing, Stroke, World
@@ -76,13 +77,14 @@ def hexadecimal(color: Color) -> str:
 def draw_ground(axes: Axes, world: World, color: Color) -> None:
     """Fill the world's bounds with a color."""
     left, bottom, right, top = world.bounds
-    look = {"color": hexadecimal(color), "zorder": 0.1}
-    axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, **look))
+    size = right - left, top - bottom
+    axes.add_patch(Rectangle((left, bottom), *size, color=hexadecimal(color), zorder=0.1))
 
 
 def draw_strokes(axes: Axes, drawing: PenDrawing, stamp: float) -> None:
     """Draw the strokes that are visible at `stamp` (s); the axes' limits must be set."""
     axes.apply_aspect()
+    assert isinstance(axes.figure, Figure)  # not a part of one
     inches = axes.get_position().width * axes.figure.get_figwidth()
     left, right = axes.get_xlim()
     for stroke, points in drawing.at(stamp):

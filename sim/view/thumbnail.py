@@ -15,7 +15,7 @@ from sim.view.body_tracks import body_tracks, extent_radius
 from sim.view.graph_data import graph_data
 from sim.view.plot import KINDS, ROBOTS, TURTLES
 from sim.view.strokes import visible_strokes
-from sim.world import Body
+from sim.world import Body, World
 from sim.world.obstacles import placed
 
 WIDTH, HEIGHT, MARGIN = 320, 180, 12  # px
@@ -59,7 +59,8 @@ class _Fit:
 
 def _world(recording: Recording) -> Iterable[str]:
     world, tracks = recording.world, body_tracks(recording)
-    fit = _Fit(*_area(recording, tracks))
+    assert world is not None  # its picture is asked for
+    fit = _Fit(*_area(world, recording, tracks))
     walls = "".join(fit.path(ends) for ends in world.walls)
     yield _line(walls, WALL, 3)
     for box in world.boxes:
@@ -76,9 +77,10 @@ def _world(recording: Recording) -> Iterable[str]:
     yield from _bodies(recording, tracks, fit)
 
 
-def _area(recording: Recording, tracks: Sequence[Sequence[Pose]]) -> tuple[float, float, float, float]:
+def _area(
+    world: World, recording: Recording, tracks: Sequence[Sequence[Pose]]
+) -> tuple[float, float, float, float]:
     """The bounds of the world; of one without walls, what the bodies and their paths cover."""
-    world = recording.world
     left, bottom, right, top = world.bounds
     if world.walls:
         return left, bottom, right, top
@@ -119,6 +121,7 @@ def _body(body: Body, pose: Pose, color: str, fit: _Fit) -> Iterable[str]:
 
 def _graph(recording: Recording) -> Iterable[str]:
     data = graph_data(recording, counted=False, max_width=WIDE)
+    assert data is not None  # the run has nodes
     scale = min((WIDTH - 2 * MARGIN) / data["width"], (HEIGHT - 2 * MARGIN) / data["height"], 1.0)
     right, down = (WIDTH - scale * data["width"]) / 2, (HEIGHT - scale * data["height"]) / 2
     yield f'<g transform="translate({right:.1f} {down:.1f}) scale({scale:.3f})">'

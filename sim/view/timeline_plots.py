@@ -69,7 +69,8 @@ def _exchanges(recording: Recording) -> list[tuple[str, list[float], str]]:
     rows = []
     for service in dict.fromkeys(call.service for call in recording.calls_of()):
         calls = recording.calls_of(service)
-        moments = [call.taken if call.requested is None else call.requested for call in calls]
+        begun = (call.taken if call.requested is None else call.requested for call in calls)
+        moments = [stamp for stamp in begun if stamp is not None]
         rows.append((f"{service}\n{_count(calls, 'call')}", moments, PATH))
     for action in dict.fromkeys(goal.action for goal in recording.goals):
         goals = recording.goals_of(action)
@@ -91,7 +92,7 @@ def plot_logs(recording: Recording) -> Plot:
         if lines:
             moments, rows = [line.stamp for line in lines], [names.index(line.node) for line in lines]
             size = 16 if marker == "|" else 9
-            look = {"color": color, "markersize": size, "markeredgewidth": 2, "label": level}
+            look: dict[str, Any] = {"color": color, "markersize": size, "markeredgewidth": 2, "label": level}
             axes.plot(moments, rows, marker, **look)
     _along_time(recording, axes, names)
     figure.offer(plot=plot_data(recording, "Log lines over time", rows=_log_rows(recording, names)))
@@ -144,8 +145,8 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     found = [curve for field in fields for curve in _curves(received, messages, field, topic)]
     looks = itertools.cycle(STYLES), itertools.cycle(MARKERS)
     for (label, of_curve, points), style, marker in zip(found, *looks, strict=False):
-        look = {"linestyle": style, "marker": marker if len(points) <= FEW else "", "linewidth": 1.2}
-        look |= {"markersize": 4, "drawstyle": "steps-post" if command else "default"}
+        look: dict[str, Any] = {"linestyle": style, "marker": marker if len(points) <= FEW else ""}
+        look |= {"linewidth": 1.2, "markersize": 4, "drawstyle": "steps-post" if command else "default"}
         times, drawn = _broken(*zip(*points, strict=True))
         axes.plot(times, drawn, **look, label=label)
         curves = panels.setdefault(of_curve if unit is None else unit, [])

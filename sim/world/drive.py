@@ -27,7 +27,7 @@ class Drive:
     def __init__(
         self, space: pymunk.Space, model: RobotModel, start: Pose, imperfect: Wheels | None = None
     ) -> None:
-        self._model, self._imperfect = model, imperfect
+        self._model, self._imperfect, self._space = model, imperfect, space
         self.body, self.shape = _body(model, start)
         self._wheels = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         self._wheels.position = self.body.position
@@ -93,7 +93,7 @@ class Drive:
         body = self.body
         body.position, body.angle = (x, y), yaw
         body.velocity, body.angular_velocity = (0.0, 0.0), 0.0
-        body.space.reindex_shapes_for_body(body)
+        self._space.reindex_shapes_for_body(body)
 
     @property
     def odometry(self) -> Odometry:

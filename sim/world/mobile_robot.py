@@ -114,7 +114,7 @@ class MobileRobot(Drive):
     def update_battery(self) -> None:
         """Discharge or charge the battery; call after each step of the space."""
         self._steps += 1
-        if self._steps % _BATTERY_STEPS:
+        if self._steps % _BATTERY_STEPS or self.battery is None:
             return
         self.battery.update(_BATTERY_STEPS * DT, self.body.position, self.odometry, self._lever)
         if self.battery.is_empty:

@@ -44,7 +44,7 @@ class Box(Model):
         u, v = self.width / 2, self.height / 2
         return (-u, -v), (u, -v), (u, v), (-u, v)
 
-    def corners(self) -> tuple[Point, Point, Point, Point]:
+    def corners(self) -> tuple[Point, ...]:
         """The corners in the map frame, counter-clockwise."""
         return placed(self.outline(), self.x, self.y, self.yaw)
 

@@ -44,8 +44,13 @@ class Person(Model):
 class Obstacle(Protocol):
     """A body that may block a person."""
 
-    body: pymunk.Body
-    shape: pymunk.Shape
+    @property
+    def body(self) -> pymunk.Body:
+        """Its body, which has its velocity."""
+
+    @property
+    def shape(self) -> pymunk.Shape:
+        """Its shape."""
 
 
 class WalkingPerson:

@@ -21,7 +21,7 @@ class PushedBox:
     """A movable box in the physics, with friction between box and floor."""
 
     def __init__(self, space: pymunk.Space, box: MovableBox) -> None:
-        self._outline = box.outline()
+        self._space, self._outline = space, box.outline()
         self.body = pymunk.Body(box.mass, pymunk.moment_for_box(box.mass, (box.width, box.height)))
         self.body.position, self.body.angle = (box.x, box.y), box.yaw
         self.shape = pymunk.Poly(self.body, self._outline)
@@ -46,10 +46,10 @@ class PushedBox:
         """Put it at (x, y), at rest; where something else is, leave it and return False."""
         body, before = self.body, self.body.position
         body.position = x, y
-        body.space.reindex_shapes_for_body(body)
-        if body.space.shape_query(self.shape):
+        self._space.reindex_shapes_for_body(body)
+        if self._space.shape_query(self.shape):
             body.position = before
-            body.space.reindex_shapes_for_body(body)
+            self._space.reindex_shapes_for_body(body)
             return False
         body.velocity, body.angular_velocity = (0.0, 0.0), 0.0
         return True

@@ -56,4 +56,5 @@ def simulate(world: World, seed: int) -> Scene:
     """The simulation of a world; the seed is for everything random in it."""
     if world.machine is None:
         return Simulation(world, seed)
-    return kind_of(world.machine).machine(world, seed)  # type: ignore[call-arg]
+    machine: Scene = kind_of(world.machine).machine(world, seed)
+    return machine

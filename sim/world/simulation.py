@@ -8,6 +8,8 @@ from sim.world.bodies import Body
 from sim.world.contacts import Contact, ContactTracker
 from sim.world.lidar import Scan
 from sim.world.mobile_robot import MobileRobot, Rows
+from sim.world.pen_drawing import PenDrawing
+from sim.world.people import Obstacle
 from sim.world.physics import add_boxes, add_obstacles, add_people, check_start, make_space
 from sim.world.robot import DT, RATE, Pose
 from sim.world.world import World
@@ -27,7 +29,7 @@ class Simulation:
         WorldError: a robot overlaps something at its start, or a box does.
     """
 
-    drawing: None = None  # robots have no pens
+    drawing: PenDrawing | None = None  # robots have no pens
     rate: float = RATE
 
     def __init__(self, world: World, seed: int = 0) -> None:
@@ -66,7 +68,7 @@ class Simulation:
     def advance(self, until: float) -> None:
         """Run the physics steps, if any are due, that end at or before `until` (s)."""
         last = math.floor(until * RATE + 1e-6)
-        obstacles = [*self.robots.values(), *self._boxes]
+        obstacles: list[Obstacle] = [*self.robots.values(), *self._boxes]
         before = [robot.roll for robot in self.robots.values()]
         before += [functools.partial(person.walk, obstacles) for person in self._people]
         after = [robot.update_imu for robot in self.robots.values() if robot.update_imu]
@@ -83,7 +85,7 @@ class Simulation:
 
     def moving_obstacles(self, robot: MobileRobot) -> tuple[Rows, Rows]:
         """Obstacles that move around one robot: segments (x0, y0, x1, y1), discs (x, y, radius); m, map."""
-        sides = [side for box in self._boxes for side in box.sides()]
+        sides: Rows = [side for box in self._boxes for side in box.sides()]
         radius = self.world.robot.radius
         others = (other for other in self.robots.values() if other is not robot)
         people = ((*person.pose[:2], person.shape.radius) for person in self._people)

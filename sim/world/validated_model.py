@@ -16,6 +16,7 @@ import functools
 import sys
 import types
 from collections.abc import Callable
+from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Annotated, Any, NamedTuple, NoReturn, Union, get_args, get_origin, get_type_hints
 
@@ -67,6 +68,7 @@ _MAX_CHARACTERS = 80  # of a value in an error
 _TYPE_PHRASES = {float: "a finite number", int: "a whole number", str: "a text"}
 
 
+@dataclass(frozen=True)
 class Model:
     """Base of frozen dataclasses that validate their values on construction.
 
@@ -91,10 +93,14 @@ class Model:
         raise ModelError(type(self).__name__, f"{key} is {value}; write {wanted or phrase(type(self), key)}.")
 
 
-@functools.cache
+_type_hints: Callable[[Any], dict[str, Any]] = functools.cache(
+    functools.partial(get_type_hints, include_extras=True)
+)
+
+
 def field_types(model: type[Model]) -> dict[str, Any]:
     """The types of a model's fields, with their constraints."""
-    return get_type_hints(model, include_extras=True)
+    return _type_hints(model)
 
 
 def phrase(model: type[Model], key: str) -> str:
@@ -146,7 +152,8 @@ def convert(hint: Any, value: Any) -> Any:
         InvalidValueError: it is of another type, infinite, not a number, or beyond the limits.
     """
     origin, inner = get_origin(hint), get_args(hint)
-    several, number = isinstance(value, list | tuple), not isinstance(value, bool)
+    several = isinstance(value, list | tuple)
+    number = isinstance(value, Real) and not isinstance(value, bool)
     if origin is Annotated:
         converted = convert(inner[0], value)
         if all(constraint.accepts(converted) for constraint in inner[1:]):
@@ -157,7 +164,7 @@ def convert(hint: Any, value: Any) -> Any:
         return tuple(convert(inner[0], item) for item in value)
     elif origin is tuple and several and len(value) == len(inner):
         return tuple(map(convert, inner, value))
-    elif hint is float and number and isinstance(value, Real) and abs(value) <= sys.float_info.max:
+    elif hint is float and number and abs(value) <= sys.float_info.max:
         return float(value) + 0.0  # turns -0.0 into 0.0; some libraries treat -0.0 as negative
     elif hint is int and number and isinstance(value, Integral):
         return int(value)

@@ -139,7 +139,7 @@ class World(Model):
         Turtles can be added and removed during a run: these are the ones at time 0.
         """
         if self.machine:
-            return self.machine.bodies
+            return tuple(self.machine.bodies)
         robots = [Body(name, "robot", self.robot.radius) for name in self.starts()]
         boxes = zip(self._box_names(), self.movable, strict=True)
         people = zip(self._people_names(), self.people, strict=True)
@@ -172,14 +172,14 @@ class World(Model):
 
         key: "battery" or "warehouse" for the locations of that part only.
         """
-        chargers: dict[str, Point] = {}
+        places: dict[str, tuple[float, ...]] = {}
         if self.battery is not None and key != "warehouse":
-            own = {f"charger_of_{robot.name}": robot.charger for robot in self.robots if robot.charger}
-            chargers = {"charger": self.battery.charger} | own
-        if self.warehouse is None or key == "battery":
-            return chargers
-        shelves = {f"shelf_{number}": pose for number, pose in enumerate(self.warehouse.pickups, start=1)}
-        return chargers | {"desk": self.warehouse.desk} | shelves
+            places["charger"] = self.battery.charger
+            places |= {f"charger_of_{robot.name}": robot.charger for robot in self.robots if robot.charger}
+        if self.warehouse is not None and key != "battery":
+            places["desk"] = self.warehouse.desk
+            places |= {f"shelf_{number}": pose for number, pose in enumerate(self.warehouse.pickups, start=1)}
+        return places
 
     def _box_names(self) -> list[str]:
         return [f"box_{number}" for number in range(1, len(self.movable) + 1)]

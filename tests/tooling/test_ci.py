@@ -98,6 +98,12 @@ def test_a_run_that_names_extras_tests_them():
     assert not is_extra("tests/marking/test_pool.py::test_it", ["tests"])
 
 
+def test_the_main_pages_in_the_browser_are_no_extras():
+    assert is_extra("tests/browser/test_robot_sidebar.py::test_it", ["tests"])
+    assert not is_extra("tests/browser/test_robot_sidebar.py::test_it", ["tests/browser"])
+    assert not is_extra("tests/browser/test_students_lab.py::test_it", ["tests"])
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [("", ""), ("extras", "-m 'extras and not soak' "), ("extras -k hub", "-m 'extras and not soak' -k hub"),

@@ -54,9 +54,9 @@ def record(system: System, options: Namespace) -> None:
         try:
             for message in system.subscribe(chosen):
                 if message is not None:
-                    moments = (system.epoch + round(at * SECOND) for at in (message.stamp, message.sent))
+                    at, sent = (system.epoch + round(s * SECOND) for s in (message.stamp, message.sent))
                     offered = qos.get(message.topic, {})
-                    writer.write(message.topic, message.type, message.raw, tuple(moments), offered)
+                    writer.write(message.topic, message.type, message.raw, (at, sent), offered)
         finally:
             system.print_line(f"Recording stopped: {writer.contents.counts.total()} messages in {folder}")
 
@@ -178,8 +178,7 @@ def _outputs(file: Path) -> list[tuple[Path, TopicSelection]]:
     except yaml.YAMLError as error:
         raise CliError(f"{file} is not YAML: {error}") from None
     outputs = content.get("output_bags") if isinstance(content, dict) else None
-    valid = isinstance(outputs, list) and all(isinstance(each, dict) and each.get("uri") for each in outputs)
-    if not valid:
+    if not (isinstance(outputs, list) and all(isinstance(it, dict) and it.get("uri") for it in outputs)):
         raise CliError(f"{file} has no list of output_bags, each with a uri, such as {EXAMPLE}.")
     for each in outputs:
         for key, (what, values) in REFUSED.items():

@@ -149,7 +149,8 @@ class BagPlayer:
             yield message.log_time, channel, message
 
     def _remapped(self, topic: str) -> str:
-        for rule in self.options.remap:
+        rules: list[str] = self.options.remap
+        for rule in rules:
             old, mark, new = rule.partition(":=")
             if not mark:
                 raise CliError(f"{rule!r} is not a remapping, such as /old:=/new.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import product
 
 from rclpy.utilities import get_rmw_implementation_identifier
@@ -87,7 +87,7 @@ def _reason(publisher: Endpoint, subscription: Endpoint) -> str:
     )
 
 
-def _print_report(system: System, title: str, rows: list[tuple[str, object]]) -> None:
+def _print_report(system: System, title: str, rows: Sequence[tuple[str, object]]) -> None:
     longest = max((len(name) for name, _ in rows), default=0)
     width = longest + 4 if longest >= 8 else 8
     system.print_line("\n".join([f"\n   {title}", *(f"{name:{width}}: {value}" for name, value in rows)]))

@@ -8,7 +8,7 @@ from typing import Any
 
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 
-from sim.ros2.group import argument, flag
+from sim.ros2.group import Argument, argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.print_options import PRINTING, positive_int, style_of
 from sim.ros2.qos_options import QOS, profile_from_options
@@ -18,7 +18,7 @@ from sim.ros2.topic_statistics import Bandwidth, Delay, Rate, TopicStatistic
 from sim.ros2.verbs.topic import NAME, topic, types_of
 
 
-def window(default: int) -> tuple:
+def window(default: int) -> Argument:
     """The option for the number of messages in the window."""
     text = f"window size, in # of messages (default: {default})"
     return argument("-w", "--window", type=positive_int, default=default, metavar="WINDOW", help=text)

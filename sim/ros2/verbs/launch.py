@@ -76,7 +76,9 @@ def _description(path: str) -> str:
     from launch import LaunchIntrospector
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
-    return LaunchIntrospector().format_launch_description(get_launch_description_from_any_launch_file(path))
+    description = get_launch_description_from_any_launch_file(path)
+    text: str = LaunchIntrospector().format_launch_description(description)
+    return text
 
 
 def _argument_lines(path: str) -> list[str]:

@@ -70,10 +70,11 @@ class Room(Model):
 
     def _corner_point(self, rng: Random, side: int) -> Point:
         """A random point near a corner, within a quarter of each side length."""
-        return tuple(
+        x, y = (
             uniform(rng, 0.3 + (size - 0.6) * 0.75 * side, 0.3 + (size - 0.6) * (0.25 + 0.75 * side))
             for size in (self.width, self.height)
         )
+        return x, y
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
 """Machines that a world can contain instead of robots: a joint, an arm, a cart-pole, a pond with turtles."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from sim.world.machines.arm import Arm, ArmModel, ReachError
 from sim.world.machines.cart_pole import CartPole, CartPoleModel, CartPoleState, Push
 from sim.world.machines.joint import Joint
-from sim.world.machines.machine import Machine
 from sim.world.machines.pond import Pond, PondModel
 from sim.world.machines.servo import JointModel
 from sim.world.machines.trajectory import Trajectory, Waypoint
@@ -19,7 +19,7 @@ class MachineKind(NamedTuple):
 
     key: str  # the name of its table in a world file
     model: type[Model]
-    machine: type[Machine]  # constructed from a world and a seed
+    machine: Callable[[Any, int], Any]  # the machine's class, which makes a `Scene` of a world and a seed
     node: str  # "module:class" of its ROS node, as a string because this package doesn't import ROS
 
 

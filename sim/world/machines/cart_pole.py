@@ -101,7 +101,9 @@ class CartPoleModel(Model):
         cart = Body("cart", "cart", outline=tuple((x / 2, y / 2) for x, y in corners))
         return cart, Body("pole", "link", outline=bar(self.pole_length, _POLE_THICKNESS))
 
-    def accelerations(self, state: CartPoleState, force: float, held: bool = False) -> tuple[float, float]:
+    def accelerations(
+        self, state: tuple[float, float, float, float], force: float, held: bool = False
+    ) -> tuple[float, float]:
         """Return x'' (m/s^2) and a'' (rad/s^2) under a force (N) on the cart.
 
         held: the cart is stopped at an end of the track, which blocks motion outwards but not inwards.

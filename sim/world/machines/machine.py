@@ -47,7 +47,8 @@ class Machine:
     @property
     def bodies(self) -> tuple[Body, ...]:
         """All moving bodies."""
-        return self.world.machine.bodies
+        bodies: tuple[Body, ...] = self.world.machine.bodies
+        return bodies
 
     @property
     def contacts(self) -> list[Contact]:

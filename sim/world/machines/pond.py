@@ -51,7 +51,7 @@ class Pond(Machine):
     def __init__(self, world: MachineWorld, seed: int = 0) -> None:
         super().__init__(world)
         self._image, self._now, self._number = PondImage(), 0.0, 0
-        self.drawing = PenDrawing()
+        self.drawing: PenDrawing = PenDrawing()
         self.drawing.set_ground(0.0, world.machine.background)
         self.turtles: dict[str, Turtle] = {}
         self._begin()
