@@ -7,7 +7,6 @@ from example_interfaces.action import Fibonacci
 from nav2_msgs.action import Wait
 from rclpy.action import ActionServer
 from rclpy.node import Node
-from std_srvs.srv import Trigger
 
 
 class FibonacciServer(Node):
@@ -93,12 +92,6 @@ class AnotherType(FibonacciServer):
     def __init__(self):
         Node.__init__(self, "fibonacci_server")
         self.server = ActionServer(self, Wait, "/fibonacci", self.execute)
-
-
-class ServiceInPlaceOfAction(FibonacciServer):
-    def __init__(self):
-        Node.__init__(self, "fibonacci_server")
-        self.create_service(Trigger, "/fibonacci", self.execute)
 
 
 class WithoutTheNode(FibonacciServer):

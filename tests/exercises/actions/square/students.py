@@ -107,10 +107,6 @@ class ThreeSides(SquareClient):
     sides = 3
 
 
-class FiveSides(SquareClient):
-    sides = 5
-
-
 class HalfSides(SquareClient):
     meters = 0.5
 
@@ -122,11 +118,6 @@ class NeverTurns(SquareClient):
             await self.finish(self.drive, ahead())
 
 
-class DoesNothing(SquareClient):
-    async def go(self):
-        self.timer.cancel()
-
-
 class WaitsForTheResponseOnly(SquareClient):
     async def finish(self, client, goal):
         await client.send_goal_async(goal)
@@ -135,14 +126,6 @@ class WaitsForTheResponseOnly(SquareClient):
 class WaitsForNothing(SquareClient):
     async def finish(self, client, goal):
         client.send_goal_async(goal)
-
-
-class ForgetsToAwaitFinish(SquareClient):
-    async def go(self):
-        self.timer.cancel()
-        for _ in range(4):
-            self.finish(self.drive, ahead())
-            self.finish(self.spin, left())
 
 
 class ForgetsToAwaitTheResult(SquareClient):

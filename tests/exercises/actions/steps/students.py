@@ -179,10 +179,3 @@ class MisspeltName(FibonacciReporter):
 class FeedbackByKeyword(FibonacciReporter):
     def tell(self, goal_handle, sequence):
         goal_handle.publish_feedback(sequence=sequence)
-
-
-class ForgetsReturnBeforeAccept(FibonacciReporter):
-    def judge(self, goal):
-        if 1 <= goal.order <= 20:
-            GoalResponse.ACCEPT  # noqa: B018
-        return GoalResponse.REJECT

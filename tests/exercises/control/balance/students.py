@@ -152,21 +152,9 @@ class GivesUpEarly(Balancer):
         return abs(angle) > 0.03
 
 
-class OneSide(Balancer):
-    """The pole leans to the left, and may fall to the right."""
-
-    def lies(self, angle):
-        return angle < -0.5
-
-
 class Nanoseconds(Balancer):
     def tell(self, seconds):
         super().tell(seconds * 1e9)
-
-
-class NoticesLate(Balancer):
-    def lies(self, angle):
-        return abs(angle) > 1.5
 
 
 class TellsOnceASecond(Balancer):

@@ -85,12 +85,6 @@ class WindsUp(Stopper):
         return max(-self.limit, min(self.limit, self.p * error + self.i * self.sum))
 
 
-class WindsUpFromZero(WindsUp):
-    """The filter begins at 0, so the first speeds are backwards; what leads into the wall is the sum."""
-
-    first = 0.0
-
-
 class POnly(Stopper):
     i = 0.0
 
@@ -132,15 +126,6 @@ class OtherWeight(Stopper):
 class SignTurned(Stopper):
     def speed(self, error):
         return super().speed(-error)
-
-
-class ToTheWall(Stopper):
-    """Wants a distance of nothing."""
-
-    p = 0.3
-
-    def speed(self, error):
-        return super().speed(error + 0.6)
 
 
 class EverySecondScan(Stopper):

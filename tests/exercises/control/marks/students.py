@@ -94,10 +94,6 @@ class NoLimit(Driver):
     limit = 1000.0
 
 
-class LimitOfTheLesson(Driver):
-    limit = 10.0
-
-
 class StaysInTheMiddle(Driver):
     def on_mark(self, msg):
         pass

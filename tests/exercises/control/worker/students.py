@@ -169,7 +169,6 @@ every_second = spun(EverySecond, threads)
 says_it_twice = spun(SaysItTwice, threads)
 slow_loop = spun(SlowLoop, threads)
 rests = spun(Rests, threads)
-says_anything = spun(SaysAnything, SingleThreadedExecutor)
 never_looks = spun(NeverLooks, threads)
 
 PARTS = (

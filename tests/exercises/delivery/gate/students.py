@@ -106,13 +106,6 @@ def main():
     rclpy.spin(Control())
 
 
-class NoGate(Control):
-    """Drives whatever is said."""
-
-    def limit(self):
-        return 0.5
-
-
 class NoOneCounts(Control):
     """Looks at ages only."""
 
@@ -162,26 +155,12 @@ class WhenItCame(Control):
         return self.now()
 
 
-class WhenThePoseCame(Control):
-    """By its arrival, and only the people by their stamp."""
-
-    def on_pose(self, message):
-        self.pose, self.pose_at = pose_2d(message.pose), self.now()
-
-
 class WhenPeopleCame(Control):
     """By their arrival, and only the pose by its stamp."""
 
     def on_people(self, people):
         super().on_people(people)
         self.people_at = self.now()
-
-
-class AgeOfThePoseOnly(Control):
-    """As in the lesson: a node that received the pose has received the people."""
-
-    def is_old(self):
-        return self.now() - self.pose_at > 0.5
 
 
 class SaysNothing(Control):
@@ -213,20 +192,6 @@ class RestsWhereItStopped(NeverGoesOn):
         super().on_goal(goal)
         self.places += self.goal != before
         self.stopped = self.stopped and self.places > 1
-
-
-class NeverMoves(Control):
-    """Safe."""
-
-    def limit(self):
-        return 0.0
-
-
-class StraightOn(Control):
-    """Without a plan: it meets the shelves."""
-
-    def plan(self):
-        self.way = [self.goal] if self.goal else []
 
 
 class Creeps(Control):

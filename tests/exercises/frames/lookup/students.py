@@ -123,13 +123,6 @@ class ReceivesNoFrames(Placer):
         """Leaves the buffer empty."""
 
 
-class StampedNow(Placer):
-    def moved(self, msg):
-        point = super().moved(msg)
-        point.header.stamp = self.get_clock().now().to_msg()
-        return point
-
-
 class SaysBoth(Placer):
     def refuse(self, error):
         super().refuse(error)

@@ -89,14 +89,6 @@ class NotTurned(Broadcaster):
         return sent
 
 
-class AngleInZ(Broadcaster):
-    def frame(self, odom):
-        sent = super().frame(odom)
-        turn = sent.transform.rotation
-        turn.z, turn.w = 2 * math.atan2(turn.z, turn.w), 0.0
-        return sent
-
-
 class SpeedForPlace(Broadcaster):
     def frame(self, odom):
         sent = super().frame(odom)
@@ -122,12 +114,6 @@ class ByTimer(Broadcaster):
 class Static(Broadcaster):
     def made(self):
         return StaticTransformBroadcaster(self)
-
-
-class Twice(Broadcaster):
-    def on_message(self, odom):
-        super().on_message(odom)
-        super().on_message(odom)
 
 
 class FirstOnly(Broadcaster):

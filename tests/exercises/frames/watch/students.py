@@ -98,10 +98,6 @@ def in_the_namespace_of_the_scout():
     return Process(Watcher, namespace="/scout", parameters={"target": "scout"})
 
 
-def in_the_namespace_without_a_target():
-    return Process(Watcher, namespace="/tower")
-
-
 def as_it_is():
     return Process(Watcher)
 
@@ -116,10 +112,6 @@ def remapping_alone():
 
 def misspelt_parameter():
     return Process(Watcher, parameters={"targt": "scout"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
-
-
-def misspelt_robot():
-    return Process(Watcher, parameters={"target": "scouts"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
 
 
 def watches_itself():

@@ -88,11 +88,6 @@ class LosesTheSide(Compass):
         return math.degrees(2 * math.acos(q.w))
 
 
-class WrongSide(Compass):
-    def heading(self, q):
-        return -super().heading(q)
-
-
 class SwapsArguments(Compass):
     def heading(self, q):
         return math.degrees(2 * math.atan2(q.w, q.z))

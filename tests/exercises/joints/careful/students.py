@@ -196,18 +196,3 @@ class SignOfTheEffort(Careful):
 
     def pulls(self, effort, velocity):
         return effort >= self.most and abs(velocity) < 0.01
-
-
-class Silent(Careful):
-    def want(self, msg):
-        pass
-
-    def free(self, position):
-        pass
-
-
-class LimitsByHeart(Careful):
-    """Those of a lift that it once saw."""
-
-    def can_go_to(self, position):
-        return -0.55 <= position <= 1.22

@@ -143,10 +143,6 @@ class Prints(Monitor):
         print(f"{name}: {math.degrees(position):.1f} degrees")
 
 
-class EveryThreeSeconds(Monitor):
-    period = 3.0
-
-
 class IndexOfTheGripper(Monitor):
     """A gripper's message has no shoulder."""
 

@@ -106,7 +106,6 @@ SpelledOut = Workspace(
     ),
 )
 NoLaunchFile = Workspace(__name__, changed(RIGHT, FILE))
-NotInstalled = Workspace(__name__, changed(RIGHT, SETUP, "('share/convoy/launch', glob('launch/*')),", ""))
 NoNamespaces = Workspace(__name__, changed(RIGHT, FILE, "        namespace=side,\n", ""))
 NoRemapping = Workspace(__name__, changed(RIGHT, FILE, '        remappings=[("drive", "cmd_vel")],\n', ""))
 NoArgument = Workspace(__name__, changed(RIGHT, FILE, 'LaunchConfiguration("gap"))', "0.5)"))

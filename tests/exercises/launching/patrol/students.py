@@ -1,7 +1,6 @@
 """Packages for launching.patrol: right ones in three styles, then one with each fault, and the broken one."""
 
 from grader.exercises.launching.patrol.answers import FAULTS, FILES
-from grader.exercises.launching.patrol.patrol_package import FILES as BROKEN
 from tests.students.workspaces import Workspace, changed
 
 PARTS = ("FAULTS", "FILES", "BROKEN", "NODE", "with_fault")
@@ -30,7 +29,6 @@ FromItsFolder = with_fault(8)
 OtherExecutable = with_fault(9)
 OneUnderscore = with_fault(10)
 WholeNumber = with_fault(11)
-AsGiven = Workspace(__name__, BROKEN)
 TooFast = Workspace(__name__, changed(FILES, "patrol/patrol/speeds.py", "0.2", "0.5"))
 OtherNode = Workspace(__name__, changed(FILES, "patrol/config/patrol.yaml", "/**:", "/driver:"))
 OtherNamespace = Workspace(

@@ -215,13 +215,6 @@ class StraightLine(Planner):
         return [(round(start[0] + dx * share), round(start[1] + dy * share)) for share in shares]
 
 
-class ColumnForRow(Planner):
-    """Looks at cells[x][y]."""
-
-    def find(self, cells, start, goal):
-        return super().find([list(row) for row in zip(*cells, strict=True)], start, goal)
-
-
 class NeverPushes(Planner):
     """Finds nothing, for nothing comes into the queue."""
 
@@ -243,14 +236,6 @@ class RaisesWithoutAWay(Planner):
         if not way:
             raise KeyError(goal)
         return way
-
-
-class SilentWithoutAWay(Planner):
-    """Keeps the last path where there is no way."""
-
-    def find(self, cells, start, goal):
-        self.way = super().find(cells, start, goal) or self.way
-        return self.way
 
 
 class GivesNoWayBack(Planner):

@@ -121,16 +121,6 @@ class EdgesBelongAbove(Battery):
             self.get_logger().error(text)
 
 
-class WrongOrder(Battery):
-    def report(self, text):
-        if self.charge > 10:
-            self.get_logger().warning(text)
-        elif self.charge > 30:
-            self.get_logger().info(text)
-        else:
-            self.get_logger().error(text)
-
-
 class IfInPlaceOfElif(Battery):
     def report(self, text):
         if self.charge > 30:

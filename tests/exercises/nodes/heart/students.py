@@ -85,10 +85,6 @@ class SlashInTheName(Heart):
         Node.__init__(self, "robot1/heart")
 
 
-class OtherRobot(Heart):
-    namespace = "/robot2"
-
-
 class PeriodsSwapped(Heart):
     beat_period, report_period = 1.0, 0.25
 
@@ -107,14 +103,6 @@ class ResetsTheCount(Heart):
     def report(self):
         super().report()
         self.beats = 0
-
-
-class TwoCounts(Heart):
-    reports = 0
-
-    def report(self):
-        self.reports += 1
-        self.get_logger().info(f"Beats: {self.reports}")
 
 
 class OneTimer(Heart):

@@ -62,14 +62,6 @@ class WarningLevel(Node):
         self.get_logger().warning("Hello, robot!")
 
 
-class MethodThatNoOneCalls(Node):
-    def __init__(self):
-        super().__init__("hello")
-
-    def say(self):
-        self.get_logger().info("Hello, robot!")
-
-
 class AgainAndAgain(Node):
     def __init__(self):
         super().__init__("hello")

@@ -111,12 +111,6 @@ class RunsOut(Weather):
         return READINGS[self.next - 1]
 
 
-class StaysAtTheLast(Weather):
-    def reading(self):
-        self.next += 1
-        return READINGS[min(self.next, len(READINGS)) - 1]
-
-
 class AllInOneCallback(Weather):
     def report(self):
         for _ in READINGS:

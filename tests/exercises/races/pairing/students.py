@@ -264,7 +264,6 @@ class EqualStamps(Synchronizer):
         return TimeSynchronizer(topics, 10)
 
 
-
 class QueueOfOne(Synchronizer):
     queue = 1
 
@@ -275,7 +274,6 @@ class OnlyWithTheImage(Pairs):
     def on_scan(self, scan):
         self.scans.append(scan)
         self.forget()
-
 
 
 class ClearsAll(Pairs):
@@ -309,13 +307,11 @@ class ByTimer(Pairs):
         self.forget()
 
 
-
 class StampedNow(Pairs):
     def publish(self, image, scan):
         pair = TimeReference(time_ref=scan.header.stamp)
         pair.header.stamp = self.get_clock().now().to_msg()
         self.publisher.publish(pair)
-
 
 
 class Twice(Pairs):

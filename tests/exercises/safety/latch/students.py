@@ -245,14 +245,6 @@ class NeverDrives(Stop):
         self.stopped = True
 
 
-class ForgetsTheReset(Stop):
-    """Stays stopped though it says yes."""
-
-    def reset(self, request, response):
-        response.success = not self.pressed and not self.is_silent()
-        return response
-
-
 class NoService(Stop):
     """The service has another name."""
 

@@ -179,10 +179,6 @@ def without_an_end():
     bench(never_ends)()
 
 
-def without_tests():
-    bench()()
-
-
 def with_endless_questions():
     bench(asks_without_end)()
 

@@ -94,15 +94,6 @@ class RightOnceIn100Milliseconds(Mux):
             self.commands.publish(Twist(linear=Vector3(x=0.5)))
 
 
-class SaysBoth(Mux):
-    """The one that counts comes last each time."""
-
-    def choose(self):
-        if self.is_young(self.topics[1]):
-            self.commands.publish(self.received[self.topics[1]][1])
-        super().choose()
-
-
 class NeverTimesOut(Mux):
     """What someone said holds forever."""
 
@@ -184,15 +175,6 @@ class AddsBoth(Mux):
             msg.linear.x += self.received[topic][1].linear.x
             msg.angular.z += self.received[topic][1].angular.z
         self.commands.publish(msg)
-
-
-class ForgetsTheTurn(Mux):
-    """Copies one number only."""
-
-    def on_message(self, topic, msg):
-        short = Twist()
-        short.linear.x = msg.linear.x
-        super().on_message(topic, short)
 
 
 class OneDriver(Mux):

@@ -143,11 +143,6 @@ class NeverTurns(Wanderer):
     turn = 0.0
 
 
-class NeverLooks(Wanderer):
-    def choose(self, command, ahead):
-        command.linear.x = self.speed
-
-
 class TurnsWhileItDrives(Wanderer):
     def choose(self, command, ahead):
         command.linear.x = 0.5
@@ -161,31 +156,12 @@ class ToAndFro(Wanderer):
     turn = property(lambda self: random.choice((-1.0, 1.0)))
 
 
-class Circles(Wanderer):
-    def choose(self, command, ahead):
-        command.linear.x, command.angular.z = 0.1, 0.4
-
-
 class Creeps(Wanderer):
     speed = 0.03
 
 
 class MisspeltTopic(Wanderer):
     topic = "/cmdvel"
-
-
-class StopsForTheNearest(Wanderer):
-    """A limit so large that it never sets off."""
-
-    limit = 10.0
-
-
-class TurnsOnX(Wanderer):
-    def choose(self, command, ahead):
-        if ahead < self.limit:
-            command.angular.x = 1.0
-        else:
-            command.linear.x = self.speed
 
 
 class SumOfSlices(Wanderer):
@@ -195,14 +171,6 @@ class SumOfSlices(Wanderer):
         command = Twist()
         self.choose(command, min(msg.ranges[:35], msg.ranges[-35:]))
         self.publisher.publish(command)
-
-
-class WrongWayRound(Wanderer):
-    def choose(self, command, ahead):
-        if ahead > self.limit:
-            command.angular.z = self.turn
-        else:
-            command.linear.x = self.speed
 
 
 class SlicePastTheEnd(Wanderer):

@@ -47,14 +47,6 @@ def sets_it_in_the_program():
     return node
 
 
-def without_setting():
-    return Process(Cruiser)
-
-
-def another_value():
-    return Process(Cruiser, parameters={"speed": 0.4})
-
-
 def misspelt_setting():
     return Process(Cruiser, parameters={"sped": 0.3})
 
@@ -73,11 +65,6 @@ def setting_of_another_node():
 
 def forgets_to_return():
     Process(Cruiser, parameters={"speed": 0.3})
-
-
-def returns_the_class():
-    """Without a Process there is nowhere to say the speed."""
-    return Cruiser
 
 
 def renames_it():

@@ -135,20 +135,10 @@ class WholePath(Reader):
         return f"{path}:{number}"
 
 
-class NoNumber(Reader):
-    def called(self, path, number):
-        return path.split("/")[-1]
-
-
 class Twice(Reader):
     def on_crash(self, msg):
         super().on_crash(msg)
         super().on_crash(msg)
-
-
-class AlwaysTheSame(Reader):
-    def cause(self, text):
-        return "driver.py:31 AttributeError"
 
 
 class Silent(Reader):

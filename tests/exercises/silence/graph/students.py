@@ -65,12 +65,6 @@ class BareNames(Reader):
         return sorted({end.node_name for end in self.get_publishers_info_by_topic(topic)})
 
 
-class TwoSlashes(Reader):
-    def names(self, topic):
-        ends = self.get_publishers_info_by_topic(topic)
-        return sorted({f"{end.node_namespace}/{end.node_name}" for end in ends})
-
-
 class NamesTwice(Reader):
     def names(self, topic):
         return sorted(full(end) for end in self.get_publishers_info_by_topic(topic))
@@ -98,12 +92,6 @@ class RemembersTheFirstLook(Reader):
 class EmptyForNone(Reader):
     def answer(self, msg):
         self.publisher.publish(String(data=", ".join(self.names(msg.data))))
-
-
-class SilentForNone(Reader):
-    def answer(self, msg):
-        if self.names(msg.data):
-            super().answer(msg)
 
 
 class OneMessageForEach(Reader):

@@ -64,12 +64,6 @@ class VolatileEars(Surveyor):
     receiving = 10
 
 
-class BestEffortEars(Surveyor):
-    receiving = QoSProfile(
-        depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.BEST_EFFORT
-    )
-
-
 class VolatileMouth(Surveyor):
     telling = 10
 

@@ -116,16 +116,6 @@ class ValueWithoutTopic(Listener):
         self.get_logger().info(f"{msg.data}")
 
 
-class TopicWithoutValue(Listener):
-    def on_message(self, msg, topic):
-        self.get_logger().info(topic)
-
-
-class WholeMessage(Listener):
-    def on_message(self, msg, topic):
-        self.get_logger().info(f"{topic}: {msg}")
-
-
 class DebugLevel(Listener):
     def on_message(self, msg, topic):
         self.get_logger().debug(f"{topic}: {msg.data}")

@@ -123,14 +123,6 @@ class IgnoresOtherWords(Listener):
             super().obey(msg)
 
 
-class InfoInPlaceOfWarning(Listener):
-    def obey(self, msg):
-        if msg.data in ("stand", "walk", "stop"):
-            super().obey(msg)
-        else:
-            self.get_logger().info(f"unknown: {msg.data}")
-
-
 class WarnsWithoutTheWord(Listener):
     def obey(self, msg):
         if msg.data in ("stand", "walk", "stop"):
@@ -172,14 +164,6 @@ class CommandSender(Listener):
 
     def obey(self, msg):
         raise ZeroDivisionError("by a student")
-
-
-class WarnsOfEveryWord(Listener):
-    """Obeys, and warns of each word, known or not."""
-
-    def obey(self, msg):
-        super().obey(msg)
-        self.get_logger().warning(f"unknown: {msg.data}")
 
 
 class LogsAllAnswers(Listener):

@@ -160,10 +160,6 @@ def safety_through_decision():
     )
 
 
-def one_topic_more():
-    drawn(more=[("decision", publishes("/where_to", PoseStamped))])
-
-
 def no_one_says_where_to():
     drawn(less=[("decision", "/goal_pose")])
 
