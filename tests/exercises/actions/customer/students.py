@@ -170,11 +170,6 @@ class FeedbackWithoutFeedback(Customer):
         self.get_logger().info(f"progress: {msg.sequence[-1]}")
 
 
-class PrintsTheProgress(Customer):
-    def on_feedback(self, msg):
-        print(f"progress: {msg.feedback.sequence[-1]}")
-
-
 class LogsTheFirstNumber(Customer):
     def on_feedback(self, msg):
         self.get_logger().info(f"progress: {msg.feedback.sequence[0]}")
@@ -216,14 +211,6 @@ class AlwaysSaysRejected(Customer):
         self.get_logger().warning("The goal was rejected.")
         if future.result().accepted:
             future.result().get_result_async().add_done_callback(self.on_result)
-
-
-class InfoInPlaceOfWarning(Customer):
-    def on_response(self, future):
-        if future.result().accepted:
-            super().on_response(future)
-        else:
-            self.get_logger().info("The goal was rejected.")
 
 
 class BracketsTooMany(Customer):

@@ -424,11 +424,6 @@ class AssumesBestEffort(Report):
         return "best_effort"
 
 
-class Number(Report):
-    def reliability(self):
-        return self.get_publishers_info_by_topic("/scan")[0].qos_profile.reliability.value
-
-
 class WaitsForTheTransform(Report):
     def __init__(self):
         super().__init__()
@@ -448,8 +443,3 @@ class OnlyOneKey(Report):
 class NoValues(Report):
     def values(self):
         return {}
-
-
-class Silent(Report):
-    def report(self):
-        pass

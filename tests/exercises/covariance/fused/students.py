@@ -313,16 +313,6 @@ def main():
     rclpy.spin(node)
 
 
-class WheelsAlone(Fusion):
-    def predict(self, rate, variance, dt):
-        self.predict_blindly(dt)
-
-
-class GyroAlone(Fusion):
-    def correct(self, yaw, spread):
-        pass
-
-
 class NoBias(Fusion):
     """Takes the gyro at its word."""
 
@@ -478,16 +468,3 @@ class TunedConstant(Fusion):
 
     def variance(self):
         return 0.004
-
-
-class BeginsLate(Fusion):
-    """Reports where it starts, and then nothing for 60 measurements."""
-
-    def reset(self):
-        super().reset()
-        self.count = 0
-
-    def publish(self, stamp):
-        self.count += 1
-        if self.count == 1 or self.count > 60:
-            super().publish(stamp)

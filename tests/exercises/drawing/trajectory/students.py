@@ -232,11 +232,6 @@ class SaysNothing(Student):
         pass
 
 
-class NeverSends(Student):
-    def send(self, goal):
-        pass
-
-
 def main_that_spins_in_its_callback():
     """The classic deadlock: waits inside a callback for what only the executor could bring."""
     rclpy.init()

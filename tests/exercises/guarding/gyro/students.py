@@ -128,14 +128,6 @@ class BiasWhileTurning(Gyro):
     still = 600
 
 
-class OrientationOfTheImu(Gyro):
-    """The IMU's own sum drifts, too."""
-
-    def look(self, msg):
-        self.yaw = 2 * math.atan2(msg.orientation.z, msg.orientation.w)
-        self.publisher.publish(Float64(data=math.degrees(self.yaw)))
-
-
 class WrongSide(Gyro):
     sign = -1.0
 
@@ -172,18 +164,6 @@ class RoundsEachStep(Gyro):
     def look(self, msg):
         super().look(msg)
         self.yaw = round(self.yaw, 2)
-
-
-class OnlyAtTheEnd(Gyro):
-    def __init__(self):
-        super().__init__()
-        self.end = self.get_clock().now() + Duration(seconds=19)
-
-    def look(self, msg):
-        super().look(msg)
-
-    def tell(self, yaw):
-        return math.degrees(yaw) if self.get_clock().now() > self.end else 0.0
 
 
 class SmoothsTooMuch(Gyro):

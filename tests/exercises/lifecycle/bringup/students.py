@@ -569,12 +569,6 @@ class ShutsDownTheControllerOnly(Bringup):
         await self.change(NODES[-1], "shutdown")
 
 
-class AgreesAndDrivesOn(Bringup):
-    async def on_shutdown(self, request, response):
-        response.success = True
-        return response
-
-
 class ForgetsTheSuccess(Bringup):
     async def on_shutdown(self, request, response):
         await self.shut_down()
@@ -618,39 +612,3 @@ class StartsTwice(Bringup):
 
     async def start(self):
         await self.bring_up()
-
-
-class SendsThreeAtOnce(Bringup):
-    """Requests everything three times without waiting for the responses."""
-
-    async def try_to(self, name, label):
-        futures = [self.managed[name].call_async(request_of(label)) for _ in range(3)]
-        return any([(await future).success for future in futures])
-
-
-class ShutsDownOnlyWhatIsUp(Bringup):
-    """Agrees to a shutdown during the bringup, and goes on with the bringup."""
-
-    up = False
-
-    async def bring_up(self):
-        await super().bring_up()
-        self.up = True
-
-    async def on_shutdown(self, request, response):
-        if self.up:
-            await self.shut_down()
-        response.success = True
-        return response
-
-
-class TakesTheNextResponse(DoneCallbacks):
-    """Takes the response that the bringup is waiting for as that of the first shutdown."""
-
-    def on_response(self, label, name, future):
-        if self.plan:
-            super().on_response(*self.plan[0], future)
-
-    def on_shutdown(self, request, response):
-        self.waiting = False
-        return super().on_shutdown(request, response)

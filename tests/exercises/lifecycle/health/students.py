@@ -117,13 +117,6 @@ class BetterOneFirst(Health):
         return min(super().level(name), WARN) if not self.is_stale(name) else STALE
 
 
-class BetterOneFirstForTheMotor(Health):
-    def level(self, name):
-        if name == "motor" and not self.is_stale(name):
-            return min(super().level(name), WARN)
-        return super().level(name)
-
-
 class FractionForPercent(Health):
     """0.5 is below 30."""
 
@@ -186,15 +179,6 @@ class WithEachMessage(Health):
     def keep(self, name, number):
         super().keep(name, number)
         self.report()
-
-
-class AboveTheLimits(Health):
-    """60 degrees are a warning already, and 80 an error."""
-
-    def level(self, name):
-        if name == "motor" and not self.is_stale(name):
-            return ERROR if self.numbers[name] > 80 else WARN if self.numbers[name] > 60 else OK
-        return super().level(name)
 
 
 class ZeroIsNoNews(Health):

@@ -117,11 +117,6 @@ class AtanOfXAndY(Compass):
         return math.remainder(math.atan2(dx, dy) - yaw_of(orientation), math.tau)
 
 
-class AtanOfTheQuotient(Compass):
-    def bearing(self, dx, dy, orientation):
-        return math.atan(dy / dx) - yaw_of(orientation)
-
-
 class ZIsNoAngle(Compass):
     def bearing(self, dx, dy, orientation):
         return math.remainder(math.atan2(dy, dx) - orientation.z, math.tau)

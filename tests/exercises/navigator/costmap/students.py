@@ -250,11 +250,6 @@ class BeginsWithNothing(Costmap):
         return np.zeros_like(cells)
 
 
-class OneIsOccupied(Costmap):
-    def inflate(self, cells, reach):
-        return np.where(super().inflate(cells, reach) == 100, 1, cells)
-
-
 class NeverLooksAtTheEdge(Costmap):
     """Where the map ends there is no next cell; on the other side Python begins again at the end."""
 

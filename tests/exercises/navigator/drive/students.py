@@ -150,10 +150,6 @@ class TurnsAway(GoToGoal):
     gain = -2.0
 
 
-class StopsTooEarly(GoToGoal):
-    near = 0.6
-
-
 class TurnsExactly(GoToGoal):
     """First turns to within 0.02 rad: but over a network the command to stop turning comes late."""
 
@@ -215,21 +211,6 @@ class FullSpeedInTheCurve(GoToGoal):
 class WholeNumber(GoToGoal):
     def steer(self, command, distance, bearing):
         command.linear.x = 1
-
-
-class ToOneOne(GoToGoal):
-    """Another goal."""
-
-    def on_odom(self, msg):
-        msg.pose.pose.position.x += 4.0
-        msg.pose.pose.position.y += 4.0
-        super().on_odom(msg)
-
-
-class GivesUpHalfWay(GoToGoal):
-    def steer(self, command, distance, bearing):
-        if distance > 3.5:
-            super().steer(command, distance, bearing)
 
 
 class PassesBy(GoToGoal):

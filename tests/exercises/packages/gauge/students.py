@@ -81,7 +81,6 @@ BEGIN, TEST = "        value = celsius(msg.data)\n", "        if value is not No
 TRY = f"        try:\n    {BEGIN}        except ValueError:\n            return\n        self"
 ByAnException = Workspace(__name__, changed(RAISES, GAUGE, BEGIN + TEST, TRY))  # a design of its own
 LosesZeroDegrees = Workspace(__name__, changed(RIGHT, GAUGE, "if value is not None:", "if value:"))
-OpenLimits = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "0.0 < volts < 3.3"))
 NoOffset = Workspace(__name__, changed(RIGHT, MODULE, " - 50.0", ""))
 BrokenCable = Workspace(__name__, changed(RIGHT, MODULE, "0.0 <= volts <= 3.3", "-9.0 <= volts <= 9.0"))
 Silent = Workspace(__name__, changed(RIGHT, GAUGE, '"celsius", 10', '"kelvin", 10'))
@@ -89,4 +88,3 @@ NO_PROGRAM = changed(RIGHT, "gauge/setup.py", "'gauge = gauge.node:main'", "")
 OnlyAModule = Workspace(__name__, NO_PROGRAM)
 NOTHING = "def celsius(volts):\n    pass\n"
 NothingInside = Workspace(__name__, changed(RIGHT, MODULE, "", NOTHING))
-NothingAtAll = Workspace(__name__, changed(NO_PROGRAM, MODULE, "", NOTHING))

@@ -268,14 +268,6 @@ class QueueOfOne(Synchronizer):
     queue = 1
 
 
-class OnlyWithTheImage(Pairs):
-    """Looks for a partner in one callback only."""
-
-    def on_scan(self, scan):
-        self.scans.append(scan)
-        self.forget()
-
-
 class ClearsAll(Pairs):
     """Forgets everything when a pair is made."""
 

@@ -208,13 +208,6 @@ class ForgetsBlue(Finder):
         return (red > 90) & (2 * green.astype(int) < red)
 
 
-class OnlyBrightRed(Finder):
-    """A post in the shade isn't seen."""
-
-    def is_red(self, red, green, blue):
-        return (red > 160) & super().is_red(red, green, blue)
-
-
 class RepeatsTheLast(Finder):
     """A timer repeats the last bearing."""
 
@@ -290,11 +283,6 @@ class CopiesTheFrame(Finder):
 class FrameOfItsOwn(Finder):
     def header(self, of_image):
         return Header(stamp=of_image.stamp, frame_id="finder")
-
-
-class NoFrame(Finder):
-    def header(self, of_image):
-        return Header(stamp=of_image.stamp)
 
 
 class ReshapesByWidth(Finder):

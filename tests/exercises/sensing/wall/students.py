@@ -431,14 +431,6 @@ class EverySecondScan(WallFollower):
         super().look(msg)
 
 
-class StopsAtTheFirstCorner(WallFollower):
-    """Standing is safe."""
-
-    def choose(self, command, ahead, wall):
-        if ahead > self.limit:
-            super().choose(command, ahead, wall)
-
-
 class GoesBackAndForth(WallFollower):
     """In a corner it turns round, and follows the wall on its other side."""
 
@@ -450,12 +442,3 @@ class GoesBackAndForth(WallFollower):
         command = Twist()
         command.linear.x = 0.2 * self.way
         self.publisher.publish(command)
-
-
-class CutsTheCorners(WallFollower):
-    """Drives on while it turns, far from the walls."""
-
-    def choose(self, command, ahead, wall):
-        super().choose(command, ahead, wall)
-        if ahead < 1.8:
-            command.linear.x, command.angular.z = 0.35, 0.45

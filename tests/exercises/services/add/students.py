@@ -113,12 +113,6 @@ class NoService(Adder):
         Node.__init__(self, "adder")
 
 
-class ClientInPlaceOfService(Adder):
-    def __init__(self):
-        Node.__init__(self, "adder")
-        self.client = self.create_client(AddTwoInts, "/add_two_ints")
-
-
 class NameBeforeType(Adder):
     def __init__(self):
         Node.__init__(self, "adder")
@@ -155,14 +149,6 @@ class SumNeverSet(Adder):
 class Multiplies(Adder):
     def add(self, request, response):
         response.sum = request.a * request.b
-        return response
-
-
-class SmallNumbersOnly(Adder):
-    """Right for four of the five questions."""
-
-    def add(self, request, response):
-        response.sum = min(request.a + request.b, 1000)
         return response
 
 

@@ -134,18 +134,6 @@ class GravityDownwards(ImuPublisher):
         msg.linear_acceleration.z = -9.81
 
 
-class GravityOnY(ImuPublisher):
-    def fill(self, msg):
-        msg.linear_acceleration = Vector3(y=9.81)
-
-
-class NoOrientation(ImuPublisher):
-    """The default quaternion is one of length 1: not turned."""
-
-    def fill(self, msg):
-        msg.orientation = Quaternion()
-
-
 class AngleInPlaceOfQuaternion(ImuPublisher):
     def fill(self, msg):
         msg.orientation = Quaternion(z=90.0)

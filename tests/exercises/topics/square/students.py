@@ -139,14 +139,6 @@ class ThreeSides(SquareDriver):
     sides = 3
 
 
-class HalfSides(SquareDriver):
-    speed = 0.25
-
-
-class OneSideOnly(SquareDriver):
-    sides = 1
-
-
 class NeverStops(SquareDriver):
     sides = 10**6
 
@@ -174,38 +166,12 @@ class CommandsTooRarely(Node):
         self.publisher.publish(msg)
 
 
-class Circle(SquareDriver):
-    """A circle whose way is as long as the square's."""
-
-    def steer(self, msg, tick):
-        msg.linear.x, msg.angular.z = 0.25, 2 * math.pi / 16
-
-
-class RoundCorners(SquareDriver):
-    """Goes on at full speed while it turns: swings far out of each corner."""
-
-    def steer(self, msg, tick):
-        super().steer(msg, tick)
-        msg.linear.x = self.speed
-
-
-class TurnsALittleTooFar(SquareDriver):
-    turn = math.pi / 4 * 1.06
-
-
 class DrivesSideways(SquareDriver):
     """A differential drive has no linear.y."""
 
     def steer(self, msg, tick):
         side = self.ticks // 40
         setattr(msg.linear, "xyxy"[side], 0.25 if side < 2 else -0.25)
-
-
-class ThereAndBack(SquareDriver):
-    """Comes back to the start, but along one side only."""
-
-    def steer(self, msg, tick):
-        msg.linear.x = self.speed if self.ticks < 80 and tick < 20 else -self.speed if tick < 20 else 0.0
 
 
 class WholeNumber(SquareDriver):
