@@ -11,12 +11,26 @@ import numpy as np
 from grader.checks.check import Missed
 from grader.diagnosis.driving import how_to_stop, last_command_that_moves
 from sim.evidence import Pose, Recording, Seconds
+from sim.world import World
 
 Point = tuple[float, float]
 _SHARES = (0.13, 0.37, 0.71, 1.0)  # of a time to look back; uneven, because a circle returns to its start
 
 
 SLOW_DOWN = "Slow down or turn away earlier: /scan gives the distance to the nearest wall."
+
+
+def world_in(recording: Recording) -> World:
+    """Return the world of a scenario that has one."""
+    assert recording.world is not None, "the scenario has a world"
+    return recording.world
+
+
+def goal_in(recording: Recording) -> Point:
+    """Return the goal of a world that has one."""
+    goal = world_in(recording).goal
+    assert goal is not None, "the world has a goal"
+    return goal
 
 
 def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:

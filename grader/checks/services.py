@@ -9,7 +9,7 @@ from grader.checks.check import Missed, hinting
 from grader.checks.ends import declared
 from grader.checks.fields import differing, message_text, plain, read, words
 from grader.checks.no_data import no_data
-from sim.evidence import Call, Endpoint, Recording, Seconds
+from sim.evidence import Call, Endpoint, Goal, Recording, Seconds
 
 STUCK = (
     "The service's callback hasn't returned: it waits, or is stuck in a loop. Let it store the request in "
@@ -100,6 +100,12 @@ def _no_answer(call: Call) -> str:
     if call.raised:
         return f"the callback raised {call.raised}"
     return "no answer" if call.taken is not None else "no server received the request"
+
+
+def sent_at(request: Call | Goal) -> Seconds:
+    """Return when a client sent a request; for those of which that is known, such as the course's."""
+    assert request.requested is not None, "no client here sent it"
+    return request.requested
 
 
 def call_text(call: Call) -> str:

@@ -53,17 +53,17 @@ class ActionGoalSender(Node):
             return
         handle.get_result_async().add_done_callback(lambda future: self.on_result(future, planned))
         if planned.patience is not None:
-            self.cancel_later(handle, planned)
+            self.cancel_later(handle, planned, planned.patience)
 
-    def cancel_later(self, handle: Any, planned: PlannedGoal) -> None:
+    def cancel_later(self, handle: Any, planned: PlannedGoal, patience: float) -> None:
         """Request once to cancel a goal."""
 
         def cancel() -> None:
             timer.cancel()
-            self.get_logger().info(f"{words(planned.goal)}: please cancel it")
+            self.get_logger().info(f"{words(planned.goal)}: please cancel it")  # type: ignore[no-untyped-call]
             handle.cancel_goal_async()
 
-        timer = self.create_timer(planned.patience, cancel)
+        timer = self.create_timer(patience, cancel)
 
     def on_result(self, future: Future, planned: PlannedGoal) -> None:
         """Handle the end of the goal."""
@@ -72,7 +72,7 @@ class ActionGoalSender(Node):
 
     def finish(self, planned: PlannedGoal, how: str) -> None:
         """Log how a goal ended, and be ready for the next one."""
-        self.get_logger().info(f"{words(planned.goal)}: {how}")
+        self.get_logger().info(f"{words(planned.goal)}: {how}")  # type: ignore[no-untyped-call]
         self.idle = 0.0
 
 

@@ -13,7 +13,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from grader.companions.qos import LATCHED
 from grader.companions.schedule import Row, Schedule
 from grader.worlds.arms import arm_of, joint_of
-from sim.world.machines import JointModel
+from sim.world.machines import ArmModel, JointModel
 
 STATIONS, VISIT = 4, 2.2  # positions; s from pose to pose
 NEAR, FAR = (0.03, 0.07), (0.25, 0.6)  # rad from a limit: near for sure, and not near for sure
@@ -27,7 +27,9 @@ KINDS = "good", "beyond", "interrupted"
 def stations(seed: int) -> list[float]:
     """Return positions (rad) for the joint of a seed, far enough apart, and near enough to be quick."""
     draw, model = random.Random(f"stations {seed}"), joint_of(seed).machine
-    places, now = [], 0.0
+    assert isinstance(model, JointModel)
+    places: list[float] = []
+    now = 0.0
     while len(places) < STATIONS:
         place = round(draw.uniform(model.lower, model.upper), 2)
         far = abs(place - now) / model.max_velocity  # s
@@ -61,11 +63,11 @@ def poses(seed: int) -> list[list[float]]:
 
     One of them is at a limit. Another, where the joint has time to come to rest, is where the margin ends.
     """
-    draw, joints = random.Random(f"poses {seed}"), arm_of(seed).machine.joints
+    draw, joints = random.Random(f"poses {seed}"), _arm_of(seed).joints
     near = [(index, upper) for index in (0, 1) for upper in (False, True)]
     draw.shuffle(near)
     margins = [NEAR, *draw.sample([NEAR, AT_LIMIT, AT_MARGIN], 3)]
-    rows = []
+    rows: list[list[float]] = []
     for (index, upper), margin in zip(near, margins, strict=True):
         row = [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]
         row[index] = _place(draw, joints[index], upper, margin)
@@ -73,6 +75,12 @@ def poses(seed: int) -> list[list[float]]:
             rows[-1][index] = _place(draw, joints[index], upper, FAR)
         rows += [row, [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]]
     return rows[:-1]
+
+
+def _arm_of(seed: int) -> ArmModel:
+    model = arm_of(seed).machine
+    assert isinstance(model, ArmModel)
+    return model
 
 
 def _place(draw: random.Random, joint: JointModel, upper: bool, margin: tuple[float, float]) -> float:
@@ -97,22 +105,23 @@ class Path(NamedTuple):
 
 def paths(seed: int) -> list[Path]:
     """Return one path of each kind for the arm of a seed."""
-    draw, joints = random.Random(f"paths {seed}"), arm_of(seed).machine.joints
-    found, now = [], [0.0, 0.0]
+    draw, arm = random.Random(f"paths {seed}"), _arm_of(seed)
+    found: list[Path] = []
+    now = [0.0, 0.0]
     kinds = draw.sample(KINDS, 3)
     if kinds[-1] == "good":  # after it the arm isn't at 0, 0, which the next path shows
         kinds[1:] = kinds[:0:-1]
     for kind in kinds:
-        points = []
+        points: list[list[float]] = []
         while len(points) < 2:
-            point = [round(draw.uniform(joint.lower + 0.1, joint.upper - 0.1), 2) for joint in joints]
+            point = [round(draw.uniform(joint.lower + 0.1, joint.upper - 0.1), 2) for joint in arm.joints]
             if 0.7 <= max(abs(a - b) for a, b in zip(point, now, strict=True)) <= 1.2:
                 points.append(point)
                 now = point
         if kind == "beyond":
             index = draw.choice((0, 1))
-            points[-1][index] = round(joints[index].upper + draw.uniform(0.1, 0.4), 2)
-        first = -1 if arm_of(seed).machine.elbow_first else 1
+            points[-1][index] = round(arm.joints[index].upper + draw.uniform(0.1, 0.4), 2)
+        first = -1 if arm.elbow_first else 1
         order = -first if found else draw.choice((1, -1))  # not the driver's, where it matters
         found.append(Path(kind, NAMES[::order], [point[::order] for point in points]))
         now = now if kind == "good" else [0.0, 0.0]  # roughly where the arm is afterwards

@@ -13,7 +13,7 @@ LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 def seconds(stamp: Time) -> float:
     """Return a message's stamp in s."""
-    return stamp.sec + stamp.nanosec / 1e9
+    return stamp.sec + stamp.nanosec / 1e9  # type: ignore[no-any-return]  # as the lesson has it
 
 
 def pose_2d(pose: Pose) -> tuple[float, float, float]:

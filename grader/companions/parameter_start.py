@@ -15,11 +15,12 @@ REFUSED = "not_started"  # the node that is there in place of a program that ref
 def started_with(program: Any, name: str, value: Any) -> Process:
     """Return the program, started with this value. Where it refuses it, an idle node takes its place."""
     process = program if isinstance(program, Process) else Process(program)
+    target: Any = process.target
 
-    @functools.wraps(process.target, updated=())
+    @functools.wraps(target, updated=())
     def start(**arguments: Any) -> Any:
         try:
-            return process.target(**arguments)
+            return target(**arguments)
         except InvalidParameterValueException:
             if not rclpy.ok():  # a main() that cleans up
                 rclpy.init()

@@ -26,10 +26,10 @@ class ServiceCaller(Node):
         fields = words(plain(request))
         request_text = f"{client.service_name} ({fields})" if fields else client.service_name
         if not client.service_is_ready():
-            self.get_logger().info(f"{request_text}: no node offers this service")
+            self.get_logger().info(f"{request_text}: no node offers this service")  # type: ignore[no-untyped-call]
         future = client.call_async(request)
         future.add_done_callback(
-            lambda future: self.get_logger().info(f"{request_text} -> {words(plain(future.result()))}")
+            lambda future: self.get_logger().info(f"{request_text} -> {words(plain(future.result()))}")  # type: ignore[no-untyped-call]
         )
 
 
@@ -68,7 +68,7 @@ class Pilot(ServiceCaller):
         self.client = self.create_client(SetBool, "/arm")
         moment = random.uniform(0.5, 2.5)
         for armed in (False, True, False, True, True, False):
-            call_at(self, moment, lambda armed=armed: self.call(self.client, SetBool.Request(data=armed)))
+            call_at(self, moment, partial(self.call, self.client, SetBool.Request(data=armed)))
             moment += random.uniform(1.2, 2.6)
 
 
@@ -99,7 +99,7 @@ class Tuner(Reader):
         speeds = [random.randint(40, 45) / 100, random.randint(55, 90) / 100, -0.1, 0.1, 0.5, 0.51, 0.0]
         for number, speed in enumerate(speeds):
             moment = 2.0 + 1.5 * number
-            call_at(self, moment, lambda speed=speed: set_parameter(self, self.set, "speed", speed))
+            call_at(self, moment, partial(set_parameter, self, self.set, "speed", speed))
 
 
 class Operator(ServiceCaller):

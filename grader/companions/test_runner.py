@@ -133,7 +133,8 @@ class _Reports:
     """Counts tests, and notes what failed."""
 
     def __init__(self) -> None:
-        self.tests, self.failed = 0, []
+        self.tests = 0
+        self.failed: list[str] = []
 
     def pytest_runtest_logreport(self, report: Any) -> None:
         """Note the outcome of a test or of its set-up."""
@@ -151,6 +152,6 @@ def _reason(report: Any) -> str:
     """The first line of what an assertion or an error states."""
     crash = getattr(report.longrepr, "reprcrash", None)
     if crash:
-        return crash.message.partition("\n")[0][:MOST_REASON]
-    lines = [line for line in report.longreprtext.splitlines() if line.startswith("E ")]
-    return lines[-1].removeprefix("E").strip() if lines else report.nodeid
+        return str(crash.message).partition("\n")[0][:MOST_REASON]
+    lines = [line for line in str(report.longreprtext).splitlines() if line.startswith("E ")]
+    return lines[-1].removeprefix("E").strip() if lines else str(report.nodeid)

@@ -11,7 +11,7 @@ import difflib
 import json
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -61,7 +61,7 @@ def normalized(text: str, name: str) -> str:
     return f"{nbformat.writes(node)}\n"
 
 
-def cell_ids(cells: list[dict[str, Any]]) -> list[str]:
+def cell_ids(cells: Sequence[dict[str, Any]]) -> list[str]:
     """Return one id per cell: its own if it is valid and unique, else one from its grade_id or a number."""
     ids: list[str] = []
     reserved = {cell.get("id") for cell in cells}

@@ -130,12 +130,7 @@ def _from_end(ended: Ended) -> Fault:
         hint = _NOT_COMPLETED
     elif ended.reason == "hang" and re.match(r"[a-z_]\w*\(\) at t = \S+ s computed", ended.detail):
         hint = _MAIN_HANGS
-    return Fault(
-        expected="a run to the end",
-        saw=ended.detail,
-        hint=hint,
-        before_start=ended.stamp <= 0.0,
-    )
+    return Fault(expected="a run to the end", saw=ended.detail, hint=hint, before_start=ended.stamp <= 0.0)
 
 
 def _first_line(error: CallbackError, recording: Recording) -> str:

@@ -110,8 +110,9 @@ class Pool:
             if self._closed:
                 raise NotMarked("The marking was stopped.")
             if self._builders is None:
-                settings = {"limits": builder.LIMITS, "hidden": judge_only.FOLDERS}
-                self._builders = Sandbox(builder.ENTRY, builder.PRELOAD, unsafe=self._unsafe, **settings)
+                limits, hidden, unsafe = builder.LIMITS, judge_only.FOLDERS, self._unsafe
+                start = builder.ENTRY, builder.PRELOAD
+                self._builders = Sandbox(*start, unsafe=unsafe, limits=limits, hidden=hidden)
             return self._builders
 
     def _mark(self, task: MarkingTask) -> Result:
@@ -204,10 +205,7 @@ def _ending(process: ConfinedProcess) -> str:
 
 
 def _with_use(
-    result: Result,
-    judge: ConfinedProcess,
-    students: list[ConfinedProcess],
-    builders: list[ConfinedProcess],
+    result: Result, judge: ConfinedProcess, students: list[ConfinedProcess], builders: list[ConfinedProcess]
 ) -> Result:
     """The result with the usage of its processes: CPU seconds, and the student's peak memory in MB."""
     processes = (judge, *students, *builders)

@@ -153,6 +153,6 @@ def _check_text(what: str, *words: object) -> None:
         raise ValueError(f"{what} are text")
 
 
-def _check_numbers(what: str, *numbers: object) -> None:
+def _check_numbers(what: str, *numbers: Any) -> None:
     if not all(type(number) in (int, float) and math.isfinite(number) for number in numbers):
         raise ValueError(f"{what} are finite numbers")

@@ -52,12 +52,14 @@ def _task(name: str, answer: str) -> MarkingTask:
 def _notebook(answer: str) -> NotebookNode:
     def cell(name: str, source: str, **settings: object) -> NotebookNode:
         about = {"grade_id": name, "schema_version": 3, "task": False, "locked": False, **settings}
-        return new_code_cell(source, id=name, metadata={"nbgrader": about})
+        made: NotebookNode = new_code_cell(source, id=name, metadata={"nbgrader": about})
+        return made
 
-    return new_notebook(
+    notebook: NotebookNode = new_notebook(
         cells=[
             new_code_cell(SETUP, id="setup"),
             cell("answer", answer, solution=True, grade=False),
             cell("test", TEST, solution=False, grade=True, points=POINTS),
         ]
     )
+    return notebook

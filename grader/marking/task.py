@@ -94,4 +94,5 @@ def receive_order(sock: socket.socket) -> JudgeOrder:
     if not descriptors:
         raise ConnectionResetError("no order was sent")
     with os.fdopen(descriptors[0], "rb") as file:
-        return pickle.load(file)
+        order: JudgeOrder = pickle.load(file)
+        return order

@@ -20,8 +20,8 @@ BUILT = {"__pycache__", "build", "ros2_course_lidar.egg-info"}
 # Pages, their scripts and manuals change no mark.
 SHOWN_ONLY = {".md", ".html", ".j2", ".css", ".js"}
 # Nor do these: no process that judges or is judged imports them.
-MARKING = ("command", "gradebook", "release", "extras", "journal.py", "lateness.py", "mark_evidence.py")
-MARKING += ("version.py",)
+MARKING: tuple[str, ...] = ("command", "gradebook", "release", "extras", "journal.py", "lateness.py")
+MARKING += ("mark_evidence.py", "version.py")
 APART = {*(f"grader/marking/{name}" for name in MARKING), "grader/__main__.py"}
 APART |= {*(f"grader/course_files/{name}.py" for name in ("review_questions", "work_folder"))}
 APART |= {"sim/__main__.py", "sim/standalone"}

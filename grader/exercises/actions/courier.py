@@ -59,7 +59,7 @@ def leaves_it_alone(run: Recording, goal: Goal) -> None:
         expected = f"no cancel: the goal succeeded at {goal.ended:.3g} s"
         hint = "The timer is still running after the goal has ended: call self.timer.cancel() in on_result."
         raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
-    if goal.status != "succeeded":
+    if goal.status != "succeeded" or goal.ended is None:
         patience = courier.drawn.patience
         hint = f"The robot would have arrived in time: the {patience} s begin when the goal is accepted."
         raise Missed("a goal that succeeds", f"it was {goal.status or 'never received'}", hint)

@@ -1,6 +1,7 @@
 """A client that logs how its goal goes, and that it was rejected."""
 
 from grader.checks import Missed, hinting, sends_goals
+from grader.checks.services import sent_at
 from grader.companions.action_servers import BusyFibonacci, LateFibonacci
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, numbers_in
@@ -72,7 +73,7 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
 @customer.check(3, after=sends_a_goal_of_seven)
 def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
     """A goal that is rejected is logged as a warning with the word `rejected`, and nothing else follows."""
-    since, word = run.during(goal.requested), customer.drawn.rejected
+    since, word = run.during(sent_at(goal)), customer.drawn.rejected
     rejected = [text for text in lines(since, "WARN") if word in text.lower()]
     if goal.status == "rejected" and not rejected:
         hint = "In on_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."

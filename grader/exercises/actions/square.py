@@ -4,6 +4,7 @@ import itertools
 import math
 
 from grader.checks import Missed, arrives, hinting, passes
+from grader.checks.services import sent_at
 from grader.companions.action_servers import DriveServer, SpinServer
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
@@ -31,7 +32,7 @@ def sends_both_kinds(run: Recording) -> None:
 def waits_for_the_end(run: Recording) -> None:
     """A goal is sent only when the previous one has ended."""
     for before, after in itertools.pairwise(_goals(run)):
-        if before.ended is None or before.ended > after.requested + EDGE:
+        if before.ended is None or before.ended > sent_at(after) + EDGE:
             hint = ("Accepted isn't finished: await handle.get_result_async() in finish, too, and await "
                     "finish in go.")
             how = "never ended" if before.ended is None else f"ended at {before.ended:.3g} s"

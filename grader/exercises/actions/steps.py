@@ -27,7 +27,7 @@ steps = Exercise("steps", "A server that reports and refuses", seconds=24, compa
 
 
 def _is_good(goal: Goal) -> bool:
-    return LIMITS[0] <= goal.request.order <= LIMITS[1]
+    return bool(LIMITS[0] <= goal.request.order <= LIMITS[1])
 
 
 def _is_bad(goal: Goal) -> bool:

@@ -61,7 +61,7 @@ def returns_what_it_has(run: Recording, goal: Goal) -> None:
     sent = list(goal.feedback[-1].message.sequence) if goal.feedback else []
     if not numbers or numbers != sequence(len(numbers) - 1) or len(numbers) < len(sent):
         hint = "After canceled(): return Fibonacci.Result(sequence=sequence), with the numbers so far."
-        wanted = sent or sequence(int(goal.at(CANCEL_REQUESTED)))
+        wanted = sent or sequence(int(goal.at(CANCEL_REQUESTED) or 0.0))
         raise Missed(f"{wanted} as the result of {goal_text(goal)}", f"{numbers}", hint)
 
 

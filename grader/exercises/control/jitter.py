@@ -81,7 +81,7 @@ def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
 def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
     """After each message, /late is how many messages so far had a latency of more than 0.01 s."""
     limit = jitter.drawn.limit
-    counts = list(itertools.accumulate(int(beat.latency > limit) for beat in beats))
+    counts: list[float] = list(itertools.accumulate(int(beat.latency > limit) for beat in beats))
     _require_numbers(run, "/late", "std_msgs/msg/Int32", counts, beats)
 
 

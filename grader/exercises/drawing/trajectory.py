@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, sends_goals
 from grader.checks.joints import FOLLOW_TRAJECTORY
+from grader.checks.services import sent_at
 from grader.companions.joint_targets import CRUISE, teacher
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
@@ -75,8 +76,8 @@ def by_their_names(run: Recording) -> list[Lesson]:
         for number, (expected, saw) in enumerate(pairs, start=1):
             if expected != saw:
                 where = f"at point {number} of the goal at {goal.requested:.3g} s"
-                part = {"about": (path, sent), "credit": SENT, "measured": lessons}
-                raise Missed(f"{_point_text(expected)} {where}", _point_text(saw), **part)
+                raise Missed(f"{_point_text(expected)} {where}", _point_text(saw), about=(path, sent),
+                             credit=SENT, measured=lessons)
     return lessons
 
 
@@ -157,7 +158,7 @@ def _lessons(run: Recording) -> list[Lesson]:
     """The paths that had time for a goal, each with its goal. Raises Missed unless there is just one."""
     found, goals = [], sends_goals(run, *FOLLOW_TRAJECTORY)
     for path in from_course(run, "/path", at_least=2, settled=SOON, what="two paths"):
-        sent = [goal for goal in goals if Window.after(path.stamp, SOON).contains(goal.requested)]
+        sent = [goal for goal in goals if Window.after(path.stamp, SOON).contains(sent_at(goal))]
         if len(sent) != 1:
             expected = f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s"
             hint = ("Send one goal in the callback of /path, each time it is called. Don't wait there for "
@@ -179,9 +180,10 @@ def _point_text(point: dict[str, float] | None) -> str:
 
 def _parts(run: Recording, goal: Goal) -> list[Part]:
     """The parts of a goal; the first begins where the arm is by the joint states that came last."""
-    state = last_before(from_course(run, "/joint_states"), goal.requested).message
-    begin, before, found = 0.0, dict(zip(state.name, state.position, strict=True)), []
-    sent = goal.request.trajectory
+    state = last_before(from_course(run, "/joint_states"), sent_at(goal))
+    before = dict(zip(state.message.name, state.message.position, strict=True)) if state else {}
+    begin, sent = 0.0, goal.request.trajectory
+    found: list[Part] = []
     for point, positions in zip(sent.points, _by_name(sent), strict=True):
         ways = [abs(positions[name] - before.get(name, math.inf)) / CRUISE for name in positions] or [0.0]
         end = in_seconds(point.time_from_start)

@@ -4,15 +4,7 @@ import math
 import statistics
 from functools import partial
 
-from grader.checks import (
-    Missed,
-    keeps_clear,
-    lasts,
-    otherwise,
-    publishes,
-    stands_still,
-    subscribes,
-)
+from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, stands_still, subscribes
 from grader.checks.frames import TF
 from grader.companions.transforms import LEADER, LosesTheLeader, localization
 from grader.exercise import Exercise, Scenario

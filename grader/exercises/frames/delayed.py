@@ -79,7 +79,7 @@ def _require_places(run: Recording, seen: list[Stimulus]) -> None:
             x, y = _point(min(_robot(run), key=lambda sent: abs(sent.measured - _measured(one.message))), one)
             if frame != "map" or not is_near((point.x, point.y), (x, y), NEAR):
                 newest = last_before(_robot(run), one.stamp)
-                was_there = is_near((point.x, point.y), _point(newest, one), NEAR)
+                was_there = newest is not None and is_near((point.x, point.y), _point(newest, one), NEAR)
                 expected = f"({x:.2f}, {y:.2f}) m in map, for the detection at {one.stamp:.3g} s"
                 saw = f"({point.x:.2f}, {point.y:.2f}) m in {frame or 'no frame'}"
                 hint = ("Time() gives the newest transform that has arrived, and that one is half a second "

@@ -190,11 +190,12 @@ def _moments(run: Recording) -> Iterator[Moment]:
     rows = [(now, last_before(sent, now)) for now in times]
     rows += [(row.stamp, row) for row in sent if row.stamp > times[0]]
     for now, last in sorted(rows, key=lambda row: row[0]):
-        seen, commands = ([last_before(rows, now - lag * STEP) for lag in range(4)]
-                          for rows in (scans, requested))
-        good = all(seen) and all(scan.age < FRESH and now - scan.stamp < 0.5 for scan in seen)
+        lately = [now - lag * STEP for lag in range(4)]
+        seen = [scan for stamp in lately if (scan := last_before(scans, stamp))]
+        commands = [row for stamp in lately if (row := last_before(requested, stamp))]
+        good = len(seen) == 4 and all(scan.age < FRESH and now - scan.stamp < 0.5 for scan in seen)
         good = good and now - seen[0].stamp < FRESH and _agree(seen)
-        steady = all(commands) and len({speeds(row) for row in commands}) == 1
+        steady = len(commands) == 4 and len({speeds(row) for row in commands}) == 1
         yield Moment(
             now,
             speeds(commands[0]) if steady and now - commands[0].stamp < FRESH else None,

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks.check import Hints
 from grader.checks.joints import described_limits
 from grader.checks.no_data import no_data
 from grader.companions.joint_targets import gymnast
@@ -44,7 +45,7 @@ def subscribes_to_both(run: Recording) -> None:
         subscribes(run, "/robot_description", STRING)
 
 
-OTHERS = {
+OTHERS: Hints = {
     "The description was published once, before your node was there. To receive it, request durability "
     "TRANSIENT_LOCAL.": lambda run: all(
         end.qos["durability"] == "volatile"
@@ -120,7 +121,8 @@ def _another(others: list[Message]) -> Missed:
 
 def _visits(run: Recording) -> list[Visit]:
     """Return when each joint was near a limit, by the joint states of the course's drivers."""
-    known, since, found = described_limits(run), {}, []
+    known, found = described_limits(run), []
+    since: dict[str, Seconds] = {}
     for row in from_course(run, "/joint_states"):
         for name, position in zip(row.message.name, row.message.position, strict=True):
             if name not in known:
@@ -147,6 +149,7 @@ def _states_near(run: Recording, visit: Visit) -> int:
 
 def _another_is_near(run: Recording, wrong: Message) -> bool:
     """Return whether a position that was published last for another name is near this joint's limit."""
-    name, states = wrong.message.data, last_before(from_course(run, "/joint_states"), wrong.stamp).message
-    others = [place for other, place in zip(states.name, states.position, strict=True) if other != name]
+    name, last = wrong.message.data, last_before(from_course(run, "/joint_states"), wrong.stamp)
+    places = zip(last.message.name, last.message.position, strict=True) if last else ()
+    others = [place for other, place in places if other != name]
     return any(described_limits(run)[name].margin(place) < NEAR for place in others)

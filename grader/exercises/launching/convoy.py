@@ -1,6 +1,7 @@
 """A launch file that starts one program for each of two robots, under other names and with other settings."""
 
 from functools import partial
+from typing import Any
 
 from grader.checks import Missed, publishes
 from grader.checks.packages import names_what_it_imports
@@ -28,7 +29,7 @@ LANES = World.from_data({
 })
 
 
-def _launch(*words: str) -> partial:
+def _launch(*words: str) -> partial[Any]:
     return partial(ros2_launch, "convoy", "two.launch.py", *words)
 
 convoy = Exercise("convoy", "One launch file, two robots", package="convoy", scenarios=[

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, has_no_contacts, publishes, series, stands_still, tenths, until_a_touch
-from grader.checks.motion import distances_to_line, ends_with_a_stop, is_hopeless, stood_still
+from grader.checks.motion import distances_to_line, ends_with_a_stop, goal_in, is_hopeless, stood_still
 from grader.companions.goals import Planner
 from grader.companions.maps import Localization, made_for
 from grader.exercise import Exercise, Scenario
@@ -35,7 +35,7 @@ LATE = 2.0  # s after its start the localization first publishes, in one of the 
 
 def _settled(run: Recording) -> bool:
     """Return whether the robot has stood at the goal for 2 s, or will not get there."""
-    at_goal = math.dist(run.world.goal, run.path[-1][1:3]) < NEAR
+    at_goal = math.dist(goal_in(run), run.path[-1][1:3]) < NEAR
     return (at_goal and stood_still(run, 2.0)) or is_hopeless(run, patience=10.0)
 
 
@@ -161,6 +161,7 @@ def _covered(run: Recording) -> tuple[float, float]:
 def _trusts_odometry_alone(run: Recording) -> bool:
     """Return whether it turns to where the path ahead would be, were the robot where its odometry has it."""
     fits_map, fits_odometry = [], []
+    assert run.world is not None, "a maze, with the path"
     line, (x0, y0, yaw0) = np.array(_line(run)), run.world.start
     from_start = Pose2D(0.0, 0.0, -yaw0)
     for stamp, turn in series(until_a_touch(run), "/cmd_vel", "angular.z"):

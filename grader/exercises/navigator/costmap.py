@@ -140,7 +140,7 @@ class Inflation(NamedTuple):
     @property
     def reaches_too_far(self) -> bool:
         """Return whether nothing is missing, but there is more than should be."""
-        return self.extra.any() and not self.missing.any()
+        return bool(self.extra.any() and not self.missing.any())
 
 
 @costmap.check(8, after=publishes_a_costmap, guess={

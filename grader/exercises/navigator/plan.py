@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, hinting, otherwise, publishes, tenths
+from grader.checks.motion import goal_in, world_in
 from grader.companions.goals import GoalSender
 from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
@@ -63,7 +64,7 @@ def answers_a_goal(run: Recording) -> list[Point]:
 })
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""
-    begin, end = run.world.start[:2], run.world.goal
+    begin, end = world_in(run).start[:2], goal_in(run)
     ends = ("begins at the robot", points[0], begin), ("ends at the goal", points[-1], end)
     for words, point, right in ends:
         if not is_near(point, right, GAP):
@@ -94,9 +95,9 @@ def keeps_to_free_cells(run: Recording, points: list[Point]) -> list[Point]:
 @plan.check(5, after=keeps_to_free_cells)
 def is_short(run: Recording, points: list[Point]) -> None:
     """The path is at most 5 % longer than the shortest one."""
-    world, floor = run.world, ground(run.world)
-    column, row = floor.cell(world.start[:2])
-    shortest = float(floor.lengths(_costmap(run) == 0, world.goal, TO_NEIGHBORS)[row, column])
+    floor = ground(world_in(run))
+    column, row = floor.cell(world_in(run).start[:2])
+    shortest = float(floor.lengths(_costmap(run) == 0, goal_in(run), TO_NEIGHBORS)[row, column])
     way = math.fsum(gap for gap, _ in _gaps(points))
     if way > RIGHT * shortest:
         hint = ("A cell may be reached again by a shorter path: then store the new cost, and the cell "

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from grader.checks import Missed, publishes, serves, subscribes
 from grader.checks.no_data import no_data
+from grader.checks.services import sent_at
 from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
 from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
 from grader.exercise import Exercise, Scenario
@@ -76,7 +77,7 @@ def stops(run: Recording) -> None:
     """When the button is pressed, the robot stops within 0.4 s, and stays stopped while the button is in."""
     when = _times(run)
     hint = "Publish an empty Twist as soon as the button sends True, and pass nothing on while self.stopped."
-    pressed = Window(when.press + BRAKING, min(when.release, requests_from_course(run, RESET)[0].requested))
+    pressed = Window(when.press + BRAKING, min(when.release, sent_at(requests_from_course(run, RESET)[0])))
     require_standing(run, pressed, f"{BRAKING:g} s after the button was pressed", hint)
 
 
@@ -84,7 +85,7 @@ def stops(run: Recording) -> None:
 def stays_stopped(run: Recording) -> None:
     """It stays stopped when the button is released, whatever the driver sends, until it is reset."""
     when = _times(run)
-    released = Window(when.release, _granted(run).requested)
+    released = Window(when.release, sent_at(_granted(run)))
     require_standing(run, released, f"after the button was released at {when.release:.3g} s", LATCH)
 
 
@@ -93,7 +94,7 @@ def answers_resets(run: Recording) -> None:
     """/reset is refused while the button is in or silent (success=False), else granted (success=True)."""
     granted, cut = _granted(run), _times(run).cut
     for call in requests_from_course(run, RESET):
-        broken, released = call.requested > cut, call.requested >= granted.requested
+        broken, released = sent_at(call) > cut, sent_at(call) >= sent_at(granted)
         right = released and not broken
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
@@ -103,7 +104,7 @@ def answers_resets(run: Recording) -> None:
             expected = f"success={right} at {call.requested:.3g} s, with the button{state}"
             granted_unsafely = call.response is not None and call.response.success
             raise Missed(expected, saw, BROKEN if broken else hint, unsafe=granted_unsafely)
-    refused, release = requests_from_course(run, RESET)[0].requested, _times(run).release
+    refused, release = sent_at(requests_from_course(run, RESET)[0]), _times(run).release
     hint = "A refused reset changes nothing: self.stopped stays True as long as the button is in."
     require_standing(run, Window(refused, release), f"after the refused reset at {refused:.3g} s", hint)
 
@@ -111,7 +112,7 @@ def answers_resets(run: Recording) -> None:
 @latch.check(2, after=(lets_through, stays_stopped))
 def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stays where it is until a new command comes."""
-    when, reset = _times(run), _granted(run).requested
+    when, reset = _times(run), sent_at(_granted(run))
     hint = "The command from before the stop is out of date: a reset must not move the robot by itself."
     why = f"from the reset at {reset:.3g} s to the next command"
     require_standing(run, Window(reset, when.resumed), why, hint)
@@ -122,8 +123,8 @@ def stops_without_the_button(run: Recording) -> None:
     """A button that is silent for 0.5 s counts as pressed: the robot stops within 1 s of its last message."""
     when = _times(run)
     hint = "A broken cable can't send True. Let a timer check how long ago the button's last message arrived."
-    resets = [call for call in requests_from_course(run, RESET) if call.requested > when.cut]
-    asked = resets[0].requested if resets else when.cut + DEAF
+    resets = [call for call in requests_from_course(run, RESET) if sent_at(call) > when.cut]
+    asked = sent_at(resets[0]) if resets else when.cut + DEAF
     require_standing(run, Window(when.cut + DEAF, asked), f"{DEAF:g} s after the button's last message", hint)
     hint = BROKEN if any(call.response and call.response.success for call in resets) else LATCH
     require_standing(run, Window(asked, run.ended.stamp), "until it is reset", hint)
@@ -150,7 +151,7 @@ def _is_free(stamp: Seconds, when: Times) -> bool:
 def _granted(run: Recording) -> Call:
     """The call that comes when the button is released; there is one before it or two, and one after it."""
     made, release = requests_from_course(run, RESET), _times(run).release
-    after = [call for call in made if call.requested > release]
+    after = [call for call in made if sent_at(call) > release]
     if not after or len(made) < 2:
         raise no_data(run, f"two calls of {RESET}", f"{len(made)}", run.graph.ends("client", RESET))
     return after[0]

@@ -22,7 +22,7 @@ class Axis(NamedTuple):
     """A part of a command with its limits: the largest value, and the step away from 0."""
 
     name: str
-    index: int
+    number: int
     most: float
     step: float
     unit: str
@@ -139,8 +139,8 @@ def _pairs(run: Recording) -> Iterator[Response]:
     for axis in axes:
         before = 0.0
         for request, row in _answered(requests, sent):
-            value = speeds(row)[axis.index]
-            yield Response(axis, row.stamp, speeds(request)[axis.index], before, value)
+            value = speeds(row)[axis.number]
+            yield Response(axis, row.stamp, speeds(request)[axis.number], before, value)
             before = value
 
 

@@ -22,7 +22,7 @@ def _why_it_hits(run: Recording) -> str:
 
 def _turning(run: Recording) -> float:
     """The share of commands that turn the robot."""
-    turns = [0.05 < abs(turn) < math.inf for _, turn in series(run, "/cmd_vel", "angular.z")]
+    turns = [bool(0.05 < abs(turn) < math.inf) for _, turn in series(run, "/cmd_vel", "angular.z")]
     return sum(turns) / len(turns)
 
 

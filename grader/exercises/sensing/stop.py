@@ -3,6 +3,7 @@
 import math
 
 from grader.checks import Missed, otherwise, publishes, series, stands_still
+from grader.checks.motion import world_in
 from grader.exercise import Exercise, Scenario
 from grader.variants import Variants
 from grader.worlds.rooms import hall, past_a_post, short_sighted
@@ -50,7 +51,7 @@ def sets_off(run: Recording) -> None:
 })
 def stops_in_time(run: Recording) -> None:
     """It stops as soon as the wall is closer than 1 m."""
-    gap, limit = run.world.bounds[2] - run.path[-1].x, stop.drawn.limit
+    gap, limit = world_in(run).bounds[2] - run.path[-1].x, stop.drawn.limit
     if run.contacts:
         saw = f"the robot drove into it at {run.contacts[0].stamp:.3g} s"
         hint = (f"Decide again for every scan: ahead while min(msg.ranges) is above {limit}, else 0.0. Is "
@@ -66,7 +67,7 @@ def stops_in_time(run: Recording) -> None:
             guess="min(msg.ranges) looks at all rays, not only at the one ahead.")
 def looks_all_round(run: Recording) -> None:
     """It also stops for a post that is nearer than 1 m, but not straight ahead."""
-    [post] = run.world.circles
+    [post] = world_in(run).circles
     gap = min(math.dist((post.x, post.y), pose[1:3]) for pose in run.path) - post.radius
     limit = stop.drawn.limit
     if not limit - 0.15 <= gap <= limit + 0.05:

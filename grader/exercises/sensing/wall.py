@@ -5,6 +5,7 @@ import math
 import statistics
 
 from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, traveled, until_a_touch
+from grader.checks.motion import world_in
 from grader.diagnosis.driving import refused_command
 from grader.exercise import Exercise, Scenario
 from grader.worlds.rooms import MARGIN, gallery, gallery_from_the_wall
@@ -22,13 +23,13 @@ wall = Exercise("wall", "Around the room, your way", scenarios=[
 
 def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
     """Return how far (m) the nearest of the room's walls is, and in which direction (rad, in the map)."""
-    left, low, right, top = run.world.bounds
+    left, low, right, top = world_in(run).bounds
     gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
     return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
 
 
 def _goes_the_other_way(run: Recording) -> bool:
-    left, low, right, top = run.world.bounds
+    left, low, right, top = world_in(run).bounds
     x, y = (left + right) / 2, (low + top) / 2
     bearings = [math.atan2(pose.y - y, pose.x - x) for pose in run.path]
     return sum(math.remainder(b - a, math.tau) for a, b in itertools.pairwise(bearings)) < -math.pi / 2
@@ -64,7 +65,7 @@ def leaves_the_start(run: Recording) -> None:
 })
 def goes_round(run: Recording) -> None:
     """It goes around the room, with the wall on its right: past all four corners, within 90 s."""
-    left, low, right, top = run.world.bounds
+    left, low, right, top = world_in(run).bounds
     corners = {
         "lower right": (right - MARGIN, low + MARGIN),
         "upper right": (right - MARGIN, top - MARGIN),

@@ -5,7 +5,7 @@ import math
 import re
 
 from grader.checks import Missed, ends_with_a_stop, offers, otherwise, series, traveled, wrong_response
-from grader.checks.services import call_text, course_calls, is_success, response_fields
+from grader.checks.services import call_text, course_calls, is_success, response_fields, sent_at
 from grader.companions.service_clients import Pilot
 from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
@@ -71,7 +71,7 @@ def reports_its_state(run: Recording) -> None:
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
     first = course_calls(run, ARM, CALLS)[0]
-    _stands(run, run.during(0.0, first.requested), "before the first call", NOT_YET)
+    _stands(run, run.during(0.0, sent_at(first)), "before the first call", NOT_YET)
     _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
         # From the first pose to the last: they are up to 50 ms inside the phase, which may be short.
@@ -98,11 +98,11 @@ def _begins_when_armed(run: Recording) -> None:
     made = course_calls(run, ARM, CALLS)
     for before, call in itertools.pairwise(made):
         if call.request.data and not before.request.data:
-            begin = max(before.requested + SETTLING, call.requested - JUST)
-            armed = run.during(made[1].requested + SETTLING, made[2].requested)
+            begin = max(sent_at(before) + SETTLING, sent_at(call) - JUST)
+            armed = run.during(sent_at(made[1]) + SETTLING, sent_at(made[2]))
             hint = INVERTED if _is_inverted(run) else NO_MORE if traveled(armed) > 10 * STILL else SWITCHES
             if not still_obeyed(run, begin):
-                _stands(run, run.during(begin, call.requested), f"until {call_text(call)}", hint)
+                _stands(run, run.during(begin, sent_at(call)), f"until {call_text(call)}", hint)
 
 
 def _stands(run: Recording, phase: Recording, when: str, hint: str) -> None:
@@ -116,8 +116,8 @@ def _stands(run: Recording, phase: Recording, when: str, hint: str) -> None:
 def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
     """The calls that armed or disarmed, each with the run until the next call."""
     made = course_calls(run, ARM, CALLS)
-    ends = [*(call.requested for call in made[1:]), run.ended.stamp]
-    phases = (run.during(call.requested + SETTLING, end) for call, end in zip(made, ends, strict=True))
+    ends = [*map(sent_at, made[1:]), run.ended.stamp]
+    phases = (run.during(sent_at(call) + SETTLING, end) for call, end in zip(made, ends, strict=True))
     return [(call, phase) for call, phase in zip(made, phases, strict=True) if call.request.data == armed]
 
 
@@ -137,7 +137,7 @@ def _is_inverted(run: Recording) -> bool:
 
 
 def _before(run: Recording, call: Call) -> list[Call]:
-    return [other for other in course_calls(run, ARM, CALLS) if other.requested < call.requested]
+    return [other for other in course_calls(run, ARM, CALLS) if sent_at(other) < sent_at(call)]
 
 
 def _commands(run: Recording, field: str) -> bool:
@@ -146,4 +146,4 @@ def _commands(run: Recording, field: str) -> bool:
 
 def _drives_before_the_second_call(run: Recording, call: Call) -> bool:
     first, second = course_calls(run, ARM, CALLS)[:2]
-    return bool(_before(run, call)) and traveled(run.during(first.requested, second.requested)) > 0.1
+    return bool(_before(run, call)) and traveled(run.during(sent_at(first), sent_at(second))) > 0.1

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from grader.checks import Missed, course_calls, offers, series, usual_mistake, wrong_response
-from grader.checks.services import call_text, is_refusal, is_success
+from grader.checks.services import call_text, is_refusal, is_success, sent_at
 from grader.companions.service_clients import READINGS, Technician
 from grader.companions.service_servers import RawGyro
 from grader.exercise import Exercise
@@ -91,7 +91,7 @@ def _calibrations(run: Recording) -> list[Calibration]:
     for call in course_calls(run, CALIBRATE, at_least=4):
         readings = _readings_before(run, call)
         if len(readings) >= READINGS:
-            after = run.during(call.requested, call.requested + 1.0)
+            after = run.during(sent_at(call), sent_at(call) + 1.0)
             raw, rates = (series(after, topic, "data") for topic in (RAW, RATE))
             rate = _mean([value for _, value in rates])
             used = _mean([value for _, value in raw]) - rate
@@ -112,7 +112,7 @@ def _unrelated(raw: Signal, rates: Signal, used: float) -> float | None:
 
 
 def _readings_before(run: Recording, call: Call) -> list[float]:
-    return [value for at, value in series(run, RAW, "data") if at <= call.requested]
+    return [value for at, value in series(run, RAW, "data") if at <= sent_at(call)]
 
 
 def _mean(values: list[float]) -> float:

@@ -3,14 +3,14 @@
 import itertools
 
 from grader.checks import Missed, series
-from grader.checks.services import has_client, is_refusal, is_success
+from grader.checks.services import has_client, is_refusal, is_success, sent_at
 from grader.checks.topics import keeps_pace
 from grader.companions.service_servers import Door
 from grader.exercise import Exercise
 from grader.geometry.near import is_near
 from grader.responses import Window
 from grader.variants import Variants
-from sim.evidence import Call, Recording
+from sim.evidence import Call, Recording, Seconds
 
 WAITING = ("While a callback or __init__ waits, nothing else in the node can run, and no response can "
            "arrive. Send the request, return, and let the done callback do the rest.")
@@ -56,7 +56,7 @@ def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
     """Each refusal is logged as a warning, with the door's message."""
     for call in filter(is_refusal, answered):
         message = call.response.message
-        soon = Window.after(call.answered, 0.6).rows(run.logs)
+        soon = Window.after(_answered_at(call), 0.6).rows(run.logs)
         lines = [line for line in soon if message in line.text]
         if not any(line.level == "WARN" for line in lines):
             saw = f"“{lines[0].text}” at level {lines[0].level}" if lines else "no line with this text"
@@ -66,7 +66,7 @@ def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
 @door.check(3, after=calls_the_door)
 def calls_until_yes(run: Recording, answered: list[Call]) -> None:
     """After a refusal it calls again, about once a second; after a success it doesn't."""
-    pauses = [after.requested - before.answered for before, after in itertools.pairwise(answered)]
+    pauses = [sent_at(after) - _answered_at(before) for before, after in itertools.pairwise(answered)]
     if pauses and max(pauses) < 0.3:
         saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it calls again before the response has arrived"
         guess = "Call only from the timer, once a second: not in a loop, and not from the done callback."
@@ -79,7 +79,7 @@ def calls_until_yes(run: Recording, answered: list[Call]) -> None:
             saw = f"{len(answered)} in all, the last at {last:.3g} s, and that one was refused"
         guess = "Let a timer call once a second, for as long as the door refuses."
         raise Missed("calls until the door says yes", saw, guess=guess)
-    late = [call for call in answered if call.requested > yes.answered]
+    late = [call for call in answered if sent_at(call) > _answered_at(yes)]
     if late:
         saw = f"{len(late)}, the first at {late[0].requested:.3g} s"
         guess = "Once the door is open, stop calling: self.timer.cancel()."
@@ -90,7 +90,7 @@ def calls_until_yes(run: Recording, answered: list[Call]) -> None:
 def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
     """It stands still until the door opens, and then drives at 0.3 m/s."""
     yes = _yes(answered)
-    opened = yes.answered if yes else run.ended.stamp
+    opened = _answered_at(yes) if yes else run.ended.stamp
     commands = series(run, "/cmd_vel", "linear.x")
     early = [(at, speed) for at, speed in commands if speed and at < opened]
     if early:
@@ -103,6 +103,11 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
         saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
         guess = f"In the done callback, when answer.success is True: self.speed = {wanted}."
         raise Missed(f"{wanted} m/s once the door has said yes", saw, guess=guess)
+
+
+def _answered_at(call: Call) -> Seconds:
+    assert call.answered is not None, "calls_the_door picked it"
+    return call.answered
 
 
 def _yes(calls: list[Call]) -> Call | None:

@@ -1,7 +1,7 @@
 """A client that must not freeze while it waits for an answer."""
 
 from grader.checks import Missed, publishes, series
-from grader.checks.services import call_text, has_client
+from grader.checks.services import call_text, has_client, sent_at
 from grader.checks.topics import keeps_pace
 from grader.companions.service_servers import SlowAdder, WheelEncoders
 from grader.exercise import Exercise
@@ -62,7 +62,7 @@ def sends_the_newest_ticks(run: Recording, made: list[Call]) -> None:
     counts = [series(run, f"/ticks/{side}", "data") for side in ("left", "right")]
     for call in made:
         # Two of each: a message published at the moment of the request may arrive before or after it.
-        left, right = ([value for at, value in side if at <= call.requested][-2:] for side in counts)
+        left, right = ([value for at, value in side if at <= sent_at(call)][-2:] for side in counts)
         a, b = call.request.a, call.request.b
         if not (a in left and b in right) and not (b in left and a in right):
             hint = "Build a new AddTwoInts.Request(a=self.left, b=self.right) for each call."

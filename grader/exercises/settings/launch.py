@@ -21,7 +21,7 @@ def launches_the_cruiser(run: Recording) -> float:
     if all(map(run.is_course_node, run.graph.nodes)):
         hint = "launch returns what should be started: return Process(...), with Cruiser in it."
         raise Missed("a node called /cruiser", "no node was started", hint)
-    return declares_speed(run)
+    return float(declares_speed(run))
 
 
 @launch.check(2, after=launches_the_cruiser,

@@ -4,7 +4,7 @@ from functools import partial
 
 from grader.checks import Missed, course_calls, ends_with_a_stop, named, offers, publishes, wrong_response
 from grader.checks.fields import plain
-from grader.checks.services import call_text, is_refusal, is_success, response_fields
+from grader.checks.services import call_text, is_refusal, is_success, response_fields, sent_at
 from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import ModeReader, Operator
 from grader.exercise import Exercise, Scenario
@@ -79,7 +79,7 @@ def refuses_other_modes(run: Recording) -> None:
 def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     """When the robot bumps into something it stops, and refuses to be armed until it is reset."""
     again = course_calls(run.during(bump), ARM)[0]
-    _commands(run, Window(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
+    _commands(run, Window(bump + SOON, sent_at(again)), STOPPED, "after the bump", BUMPED)
     refusal = is_refusal(again)
     if not refusal or not again.response.message.strip():
         guess = ("In arm: if request.data and self.bumped, set success to False and let the message say what "
@@ -89,7 +89,7 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
         missed.unsafe = is_success(again)  # it lets itself be armed at the wall
         raise missed
     reset = course_calls(run, RESET)[0]
-    _commands(run, Window(again.requested, reset.requested), STOPPED, "after arming was refused")
+    _commands(run, Window(sent_at(again), sent_at(reset)), STOPPED, "after arming was refused")
 
 
 @modes.check(3, after=stops_when_it_bumps, only="operated")
@@ -98,11 +98,11 @@ def drives_on_after_a_reset(run: Recording) -> None:
     reset = course_calls(run, RESET)[0]
     _is_accepted(reset)
     arm, disarm = course_calls(run, ARM, at_least=6)[-2:]
-    _commands(run, Window(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
+    _commands(run, Window(sent_at(reset), sent_at(arm)), STOPPED, "after the reset, not armed yet")
     again = ("reset has to undo what the bump set: self.bumped = False. Still touching the wall isn't a "
              "new bump.")
     _is_accepted(arm, again)
-    back = Window(arm.requested + SOON, disarm.requested)
+    back = Window(sent_at(arm) + SOON, sent_at(disarm))
     _commands(run, back, MODES["back"], "in the mode back, armed after a reset")
     ends_with_a_stop(run, credit=0.5)
 
@@ -118,13 +118,13 @@ def _starts_with_no_other(run: Recording) -> None:
 
 
 def _mode(call: Call) -> str:
-    return plain(call.request).get("mode", "")
+    return str(plain(call.request).get("mode", ""))
 
 
 def _phases(run: Recording) -> list[tuple[Call | None, Window]]:
     """The calls, each with the time until the next one; first no call, and the time before any."""
-    calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.requested)
-    begins = [0.0, *(call.requested for call in calls)]
+    calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=sent_at)
+    begins = [0.0, *map(sent_at, calls)]
     ends = [*begins[1:], run.ended.stamp]
     phases = (Window(begin + SOON, end) for begin, end in zip(begins, ends, strict=True))
     return list(zip([None, *calls], phases, strict=True))

@@ -5,7 +5,7 @@ from functools import partial
 
 from grader.checks import Missed, course_calls, named, publishes, series, wrong_response
 from grader.checks.fields import plain
-from grader.checks.services import call_text, is_refusal, is_success, response_fields
+from grader.checks.services import call_text, is_refusal, is_success, response_fields, sent_at
 from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import Tuner
 from grader.exercise import Exercise, Scenario
@@ -22,7 +22,7 @@ TOO_FAST = 0.9  # m/s, with which it is started once
 
 parameters = Exercise("parameters", "A speed that can be set", scenarios=[
     Scenario("yard", 14, 1, [Tuner], name="tuned"), Scenario("yard", 14, 2, [Tuner], name="tuned"),
-    Scenario("yard", 2, name="too fast", prepare=partial(started_with, "speed", TOO_FAST)),
+    Scenario("yard", 2, name="too fast", prepare=partial(started_with, "speed", TOO_FAST)),  # type: ignore[arg-type]  # the program comes first
 ], variants=Variants(
     {"speed": (0.2, 0.15, 0.25)},
     texts=("with {speed:g} (m/s)", '"speed", {speed:g})', "begin at {speed:g}", "the speed is {speed:g}"),
@@ -34,10 +34,10 @@ def declares_speed(run: Recording) -> float:
     """The node /cruiser has a parameter `speed`, a number with a decimal point."""
     named(run, "/cruiser")
     given = response_fields(course_calls(run, GET)[0])
-    if not isinstance(given.get("value"), float):
+    if not isinstance(value := given.get("value"), float):
         expected = "a parameter `speed` of /cruiser with a value such as 0.2"
         raise Missed(expected, "no such parameter, or one of another type" if given else "no answer")
-    return given["value"]
+    return value
 
 
 @parameters.check(2, after=declares_speed, only="tuned")
@@ -56,8 +56,8 @@ def follows_the_setting(run: Recording) -> None:
             guess = (f"A speed from {LOW} to {HIGH}, both ends included, is fine. Compare the new one, "
                      "parameter.value, and return SetParametersResult(successful=True).")
             raise wrong_response(f"successful=True for {call_text(call)}", call, guess)
-        later = [other.requested for other in made if other.requested > call.requested]
-        _drives_at(run, _speed(call), call.requested + 0.3, min(later, default=math.inf))
+        later = [stamp for stamp in map(sent_at, made) if stamp > sent_at(call)]
+        _drives_at(run, _speed(call), sent_at(call) + 0.3, min(later, default=math.inf))
 
 
 @parameters.check(4, after=declares_speed)
@@ -100,7 +100,7 @@ def _starts_with_no_other(run: Recording) -> None:
 
 
 def _speed(call: Call) -> float:
-    return plain(call.request)["speed"]
+    return float(plain(call.request)["speed"])
 
 
 def _is_allowed(call: Call) -> bool:
@@ -109,7 +109,7 @@ def _is_allowed(call: Call) -> bool:
 
 def _is_cut(run: Recording, call: Call) -> bool:
     """Return whether a speed was accepted, and the robot drove at the nearest one that is allowed."""
-    soon = series(run.during(call.requested + 0.3, call.requested + 1.3), "/cmd_vel", "linear.x")
+    soon = series(run.during(sent_at(call) + 0.3, sent_at(call) + 1.3), "/cmd_vel", "linear.x")
     limit = min(max(_speed(call), LOW), HIGH)
     return is_success(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
 
@@ -118,7 +118,7 @@ def begins_with(run: Recording, speed: float, expected: float, hint: str = "") -
     """The parameter has the expected value at the start, and the commands, too."""
     if not math.isclose(speed, expected):
         raise Missed(f"speed {expected} from the start", f"{speed:g}", hint)
-    later = [call.requested for call in course_calls(run, SET, at_least=0)]
+    later = map(sent_at, course_calls(run, SET, at_least=0))
     _drives_at(run, expected, 0.5, min(later, default=math.inf))
 
 

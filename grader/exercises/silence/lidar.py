@@ -24,7 +24,7 @@ class Counted(NamedTuple):
     stamp: Seconds
     measured: Seconds
     lost: int
-    count: int
+    published: int
 
 
 @lidar.check(2)
@@ -53,36 +53,36 @@ def receives_every_scan(run: Recording) -> list[Counted]:
 
 @lidar.check(8, after=receives_every_scan, hints={
     "It stays 0. When a scan was lost, two successive stamps are more than scan_time apart.":
-        lambda run, counted: not any(one.count for one in counted),
+        lambda run, counted: not any(one.published for one in counted),
     "You count each gap as one, but in a long gap several scans were lost: gap / scan_time - 1.":
-        lambda run, counted: counted[-1].count == len({one.lost for one in counted}) - 1,
+        lambda run, counted: counted[-1].published == len({one.lost for one in counted}) - 1,
     "When two scans are one scan_time apart, nothing was lost: subtract 1 from each gap.":
-        lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1,
+        lambda run, counted: counted[-1].published == counted[-1].lost + len(counted) - 1,
     "That is how many scans arrived. Count those that should have arrived in between.":
-        lambda run, counted: all(b.count - a.count == 1 for a, b in itertools.pairwise(counted)),
+        lambda run, counted: all(b.published - a.published == 1 for a, b in itertools.pairwise(counted)),
     "One scan every 0.1 s is a different lidar: each scan contains how long it takes, scan.scan_time.":
-        lambda run, counted: counted[-1].count == counted[0].count + sum(
+        lambda run, counted: counted[-1].published == counted[0].published + sum(
             round((b.measured - a.measured) / 0.1) - 1 for a, b in itertools.pairwise(counted)),
     "That is only what was lost just before the last scan: add it up, self.missed += ...":
-        lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost,
+        lambda run, counted: counted[-1].published == counted[-1].lost - counted[-2].lost,
     "The number of scans that fit into a gap is its length divided by scan.scan_time, rounded. Take "
     "the gap between the two header stamps, because scans also arrive early or late.": otherwise,
 })
 def counts_all(run: Recording, counted: list[Counted]) -> None:
     """At the end the count is how many scans were lost since the first one."""
     last = counted[-1]
-    if last.count != last.lost:
+    if last.published != last.lost:
         expected = f"{last.lost} lost until {last.stamp:.3g} s"
-        raise Missed(expected, f"{last.count}", about=(counted,))
+        raise Missed(expected, f"{last.published}", about=(counted,))
 
 
 @lidar.check(3, after=(receives_every_scan, counts_all))
 def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> None:
     """The count is right after every scan."""
     for one in counted:
-        if one.count != one.lost:
+        if one.published != one.lost:
             hint = "At each scan, count what was lost since the previous one, and add it to the total."
-            raise Missed(f"{one.lost} lost until {one.stamp:.3g} s", f"{one.count}", hint)
+            raise Missed(f"{one.lost} lost until {one.stamp:.3g} s", f"{one.published}", hint)
 
 
 def _requires_listening(run: Recording, sent: int) -> None:

@@ -51,7 +51,7 @@ def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str
 def _released(course: Course, source: Path) -> NotebookNode:
     """The release that nbgrader makes of a notebook with answers, without entering it into the gradebook."""
     converter = GenerateAssignment(coursedir=course.directory, parent=course.app)
-    notebook = nbformat.read(source, 4)
+    notebook: NotebookNode = nbformat.read(source, 4)
     if any(HIDDEN in cell.source for cell in notebook.cells):
         file = source.relative_to(course.root)
         raise CourseError(f"{file} has hidden tests, which only `nbgrader autograde` runs: show these tests")

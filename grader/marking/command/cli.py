@@ -105,14 +105,8 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     """The settings of the options, or of the last run."""
     jobs = options.jobs or USUAL_JOBS
     given = Settings(
-        sorted(options.student),
-        options.force,
-        jobs,
-        options.unsafe,
-        not options.no_feedback,
-        options.csv,
-        options.html,
-        options.dask,
+        *(sorted(options.student), options.force, jobs, options.unsafe, not options.no_feedback),
+        *(options.csv, options.html, options.dask),
     )
     if not options.resume:
         return given
@@ -122,8 +116,8 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     stored = Journal(course.journal(options.assignment)).settings()
     if stored is None:
         raise CourseError(f"there is no run of {options.assignment} to continue: leave out --resume")
-    changed = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
-    return replace(Settings(**stored), **changed)
+    last = Settings(**stored)
+    return replace(last, jobs=options.jobs or last.jobs, dask=options.dask or last.dask)
 
 
 @contextlib.contextmanager

@@ -81,7 +81,8 @@ def rehearse(course: Course, assignment: str, settings: Settings, open_pool: Ope
     with Book(course) as book:
         check_release(course, assignment, book.cells(assignment))
     release = load_release(course.release(assignment))
-    outcome, entries, unjudged = Rehearsal(len(submissions)), {}, Unjudged()
+    outcome, unjudged = Rehearsal(len(submissions)), Unjudged()
+    entries: dict[str, JournalEntry] = {}
     tasks = _unmarked(course, release, key, submissions, settings.force, entries, outcome)
     first = next(tasks, None)
     if first is not None:
@@ -100,13 +101,8 @@ def rehearse(course: Course, assignment: str, settings: Settings, open_pool: Ope
 
 
 def _unmarked(
-    course: Course,
-    release: Release,
-    key: str,
-    submissions: Mapping[str, Path],
-    force: bool,
-    entries: dict[str, JournalEntry],
-    outcome: Rehearsal,
+    course: Course, release: Release, key: str, submissions: Mapping[str, Path], force: bool,
+    entries: dict[str, JournalEntry], outcome: Rehearsal,
 ) -> Iterator[MarkingTask]:
     """Yield what has to be judged, with the reason in the outcome; the stored results go to `entries`."""
     journal, reader = Journal(course.journal(release.assignment)), TaskReader(release, key)

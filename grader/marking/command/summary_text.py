@@ -41,8 +41,8 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
     for mistake in summary.mistakes[:mistakes]:
         yield f"  {mistake.students} of {len(summary.rows)}  {mistake.exercise}: {mistake.sentence}"
         for label, words in (("Saw", mistake.saw), ("Hint", mistake.hint)):
-            indents = {"initial_indent": " " * 10, "subsequent_indent": " " * 12}
-            yield from textwrap.wrap(f"{label}: {words}", WIDTH, **indents) if words else ()
+            lines = textwrap.TextWrapper(WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 12)
+            yield from lines.wrap(f"{label}: {words}") if words else ()
     if summary.concerns:
         yield from ("", "Needs your attention")
     shown = summary.concerns[: CONCERNS if many else None]

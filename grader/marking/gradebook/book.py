@@ -5,14 +5,7 @@ from datetime import datetime
 from types import TracebackType
 
 from nbformat import NotebookNode
-from nbgrader.api import (
-    Grade,
-    Gradebook,
-    InvalidEntry,
-    MissingEntry,
-    Student,
-    SubmittedNotebook,
-)
+from nbgrader.api import Grade, Gradebook, InvalidEntry, MissingEntry, Student, SubmittedNotebook
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, is_task
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
@@ -68,7 +61,7 @@ class Book:
                 submission = book.find_submission(assignment, student)
             except MissingEntry:
                 return False
-            return submission.timestamp == timestamp
+            return bool(submission.timestamp == timestamp)
 
     def marks(self) -> list[GradebookMark]:
         """All marks of the class, by assignment and student."""

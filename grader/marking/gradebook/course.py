@@ -51,12 +51,12 @@ class Course:
     @property
     def name(self) -> str:
         """The course's id in the gradebook."""
-        return self.directory.course_id
+        return str(self.directory.course_id)
 
     @property
     def database(self) -> str:
         """The gradebook's address, as SQLAlchemy takes it."""
-        return self.directory.db_url
+        return str(self.directory.db_url)
 
     def source(self, assignment: str) -> Path:
         """The assignment with its answers."""
@@ -80,7 +80,7 @@ class Course:
 
     def journal(self, assignment: str) -> Path:
         """The folder in which marking stores its results, beside nbgrader's."""
-        return (self.root / self.directory.autograded_directory).parent / "marking" / assignment
+        return self._beside_marked("marking", assignment)
 
     def table(self, assignment: str) -> Path:
         """The file with the points of a large class."""
@@ -88,20 +88,22 @@ class Course:
 
     def receipts(self) -> Path:
         """The folder of receipts and certificates."""
-        return (self.root / self.directory.autograded_directory).parent / "receipts"
+        return self._beside_marked("receipts")
 
     def likeness(self, assignment: str) -> Path:
         """The folder with the pages that compare the submissions."""
-        return (self.root / self.directory.autograded_directory).parent / "likeness" / assignment
+        return self._beside_marked("likeness", assignment)
 
     def variants(self, student: str, assignment: str) -> Path:
         """The folder with a student's own release of an assignment with variants."""
-        top = (self.root / self.directory.autograded_directory).parent / "variants"
-        return top / student / assignment
+        return self._beside_marked("variants", student, assignment)
 
     def platform_files(self) -> Path:
         """The folder with what is known of a learning platform's uploads."""
-        return (self.root / self.directory.autograded_directory).parent / "platform"
+        return self._beside_marked("platform")
+
+    def _beside_marked(self, *names: str) -> Path:
+        return (self.root / str(self.directory.autograded_directory)).parent.joinpath(*names)
 
     def assignments(self) -> list[str]:
         """The names of all assignments that are released."""
@@ -198,8 +200,8 @@ def small_text(folder: Path, name: str) -> str:
 def _parse_time(text: str) -> datetime:
     """UTC. nbgrader takes an offset such as +0200 for 200 s, and an unknown zone for UTC."""
     *_, zone = text.split()
-    if OFFSET.fullmatch(zone):
-        return parse_utc(dateutil.parser.parse(text))
-    if len(text.split()) == 3 and dateutil.tz.gettz(zone) is None:
+    has_offset = OFFSET.fullmatch(zone) is not None
+    if not has_offset and len(text.split()) == 3 and dateutil.tz.gettz(zone) is None:
         raise ValueError(f"unknown zone {zone}")
-    return parse_utc(text.strip())
+    time: datetime = parse_utc(dateutil.parser.parse(text) if has_offset else text.strip())
+    return time

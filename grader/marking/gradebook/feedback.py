@@ -22,14 +22,15 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)  # what a page that can't be st
 END = b"</html>"
 
 
-class _Feedback(GenerateFeedback):
+class _Feedback(GenerateFeedback):  # type: ignore[misc]
     """nbgrader's converter for chosen students; its own takes one or all."""
 
     def choose(self, folders: Collection[Path]) -> None:
         self.chosen = {str(folder): sorted(map(str, folder.glob("*.ipynb"))) for folder in folders}
 
     def init_notebooks(self) -> None:
-        self.assignments, self.notebooks = self.chosen, []
+        self.assignments = self.chosen
+        self.notebooks: list[str] = []
 
     def init_assignment(self, assignment_id: str, student_id: str) -> None:
         with _stopping_if_full(self._format_dest(assignment_id, student_id)):
@@ -56,10 +57,7 @@ def _stopping_if_full(place: str) -> Iterator[None]:
 
 
 def make_feedback(
-    course: Course,
-    assignment: str,
-    students: Sequence[str],
-    jobs: int = 1,
+    course: Course, assignment: str, students: Sequence[str], jobs: int = 1,
     report: Callable[[int], None] = lambda count: None,
 ) -> list[str]:
     """Make the pages of these students anew, in up to `jobs` processes; return those that failed.
@@ -70,7 +68,7 @@ def make_feedback(
     shares = [students[first : first + SHARE] for first in range(0, len(students), SHARE)]
     with contextlib.ExitStack() as stack:
         if jobs == 1 or len(shares) < 2:
-            done = (_make(course, assignment, share) for share in shares)
+            done: Iterator[int] = (_make(course, assignment, share) for share in shares)
         else:
             count = min(jobs, len(shares))
             workers = ProcessPoolExecutor(count, get_context("spawn"), initializer=_begin)

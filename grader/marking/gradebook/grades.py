@@ -13,7 +13,7 @@ ABOUT = ["assignment", "duedate", "timestamp", "student_id", "last_name", "first
 FIELDS = [*ABOUT, *["raw_score", "late_submission_penalty", "score", "max_score"]]
 
 
-class Grades(CsvExportPlugin):
+class Grades(CsvExportPlugin):  # type: ignore[misc]
     """nbgrader's exporter with its columns, quoted, and without assignments that have no submissions.
 
     Nbgrader's own gives 0 to all in such assignments, and a comma in a name shifts the columns.

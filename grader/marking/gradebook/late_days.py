@@ -5,7 +5,7 @@ from traitlets import Float
 from grader.marking.lateness import late_penalty
 
 
-class LateDays(LateSubmissionPlugin):
+class LateDays(LateSubmissionPlugin):  # type: ignore[misc]
     """A plugin of nbgrader's `AssignLatePenalties`."""
 
     percent_per_day = Float(0.0, min=0.0, max=100.0, help="percent of the points earned").tag(config=True)
@@ -15,5 +15,6 @@ class LateDays(LateSubmissionPlugin):
     ) -> float | None:
         """The points that are lost; what nbgrader's plugin gives if no percentage is set."""
         if not self.percent_per_day:
-            return super().late_submission_penalty(student_id, score, total_seconds_late)
+            usual: float | None = super().late_submission_penalty(student_id, score, total_seconds_late)
+            return usual
         return late_penalty(score, total_seconds_late, self.percent_per_day)

@@ -46,9 +46,7 @@ def notice(result: Result) -> str:
     return "\n\n".join([*parts, "\n".join(f"- {_line(repair)}" for repair in result.repairs)]).rstrip()
 
 
-def write_notebooks(
-    course: Course, result: Result, shown: dict[str, NotebookNode], time: str
-) -> None:
+def write_notebooks(course: Course, result: Result, shown: dict[str, NotebookNode], time: str) -> None:
     """Write the notebooks into the student's folder. Raises OSError.
 
     time: the text of the submission's timestamp.txt, or "".
@@ -77,7 +75,7 @@ def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
     return same and all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
 
 
-def _marking(path: Path) -> str | None:
+def _marking(path: Path) -> object:
     try:
         return nbformat.read(path, nbformat.NO_CONVERT).metadata.get(MARKING)
     except (OSError, ValueError, AttributeError):

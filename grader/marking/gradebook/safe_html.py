@@ -8,6 +8,7 @@ the script only draws its numbers; every script is dropped, and the course's own
 """
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 import nh3
@@ -116,7 +117,7 @@ def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
 
 def _kept(tag: str, name: str, value: str) -> str | None:
     """The value of an allowed attribute, or None."""
-    holds = {
+    holds: dict[str, Callable[[], object]] = {
         "class": lambda: all(CLASSES.fullmatch(word) for word in value.split()),
         "data-replay": lambda: REPLAY.fullmatch(value),
         "data-plot": lambda: REPLAY.fullmatch(value),

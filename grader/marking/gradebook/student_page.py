@@ -47,7 +47,7 @@ class StudentPage(HTMLExporter):
         config.merge(super().default_config)
         return config
 
-    def from_notebook_node(
+    def from_notebook_node(  # type: ignore[override]  # as all exporters that make text
         self, nb: NotebookNode, resources: dict[str, Any] | None = None, **kw: Any
     ) -> tuple[str, dict[str, Any]]:
         """Work like HTMLExporter. resources: nbgrader's, with student and assignment."""
@@ -66,7 +66,7 @@ class StudentPage(HTMLExporter):
 
     def _preprocess(self, nb: NotebookNode, resources: dict[str, Any]) -> tuple[NotebookNode, dict[str, Any]]:
         """Work like HTMLExporter. nbgrader's preprocessors enter the scores; the contents need them."""
-        nb, resources = super()._preprocess(nb, resources)
+        nb, resources = super()._preprocess(nb, resources)  # type: ignore[no-untyped-call]
         self.environment.globals["page"]["contents"] = list(_contents(nb))
         return nb, resources
 

@@ -60,8 +60,9 @@ def _standing(found: SubmittedAssignment) -> Standing:
 
 def _points(grade: Any) -> float | None:
     """The points that count: by hand or by marking, with extra credit."""
-    base = grade.auto_score if grade.manual_score is None else grade.manual_score
-    return base if grade.extra_credit is None else (base or 0.0) + grade.extra_credit
+    base: float | None = grade.auto_score if grade.manual_score is None else grade.manual_score
+    extra: float | None = grade.extra_credit
+    return base if extra is None else (base or 0.0) + extra
 
 
 def _by_hand(grade: Any) -> bool:

@@ -51,7 +51,7 @@ def find_exercises(marking: MarkingState) -> None:
 
 def _exercise(marking: MarkingState, name: str) -> Exercise:
     """The exercise with this full name, in the student's variant."""
-    found = find_exercise(name)
+    found: Exercise = find_exercise(name)
     number = marking.variants.get(found.name)
     return found if number is None else found.variant(number)
 
@@ -88,8 +88,8 @@ def fill_in_missed_tests(marking: MarkingState) -> None:
         results.sort(key=lambda result: order.index(result.cell))
 
 
-STEPS = (draw_variants, rebuild_notebooks, find_exercises, flag_suspicious_code)
-STEPS += (run_and_judge, fill_in_missed_tests)
+STEPS = [draw_variants, rebuild_notebooks, find_exercises, flag_suspicious_code]
+STEPS += [run_and_judge, fill_in_missed_tests]
 
 
 def mark_submission(task: MarkingTask, secret: str, start_session: StartSession) -> Result:

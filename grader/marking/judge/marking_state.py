@@ -55,7 +55,8 @@ class MarkingState:
 
 def cell_name(cell: NotebookNode) -> str:
     """Its grade_id, or ""."""
-    return cell.metadata.get("nbgrader", {}).get("grade_id", "")
+    name: str = cell.metadata.get("nbgrader", {}).get("grade_id", "")
+    return name
 
 
 def no_points(cell: NotebookNode, exercise: Exercise | PlainTest) -> CellResult:

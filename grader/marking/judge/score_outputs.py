@@ -19,8 +19,8 @@ NEAR = 1e-6
 def for_student(score: Score) -> Score:
     """The score for the student's page: without the errors of the course's checks."""
     verdicts = [replace(verdict, alarm="") for verdict in score.verdicts]
-    about = {"title": score.title, "differences": score.differences}
-    return Score(score.exercise, verdicts, score.recordings, **about)
+    title, differences = score.title, score.differences
+    return Score(score.exercise, verdicts, score.recordings, title=title, differences=differences)
 
 
 def alarms(score: Score) -> list[str]:

@@ -72,11 +72,7 @@ class StudentSession:
     """
 
     def __init__(
-        self,
-        sock: socket.socket,
-        time_limits: TimeLimits,
-        describe_end: Callable[[], str],
-        build: Build,
+        self, sock: socket.socket, time_limits: TimeLimits, describe_end: Callable[[], str], build: Build
     ) -> None:
         self._wire = DeadlineWire(sock, MESSAGE)
         self._time_limits, self._describe_end, self._build = time_limits, describe_end, build

@@ -69,8 +69,8 @@ def imported_packages(cells: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def _exercise_name(source: str, names: dict[str, str], cell: str) -> str:
-    parsed = _parsed(source)
-    match getattr(parsed, "body", None):
+    parsed = _parsed(source) or ast.Module([], [])
+    match parsed.body:
         case [ast.Expr(ast.Call(ast.Attribute(owner, "grade")))]:
             match owner:  # of a student's own release
                 case ast.Call(ast.Attribute(varied, "variant"), [ast.Constant(int())], []):

@@ -146,7 +146,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 on a difference")
     check = parser.parse_args(arguments).check
     try:
-        found = differences(Path.cwd()) if check else release(Path.cwd(), print_line)
+        found = differences(Path.cwd()) if check else []
+        if not check:
+            release(Path.cwd(), print_line)
     except MarkingError as error:
         print(error, file=sys.stderr)
         return 1

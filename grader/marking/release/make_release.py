@@ -11,6 +11,7 @@ import shutil
 import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from grader.marking.errors import CommandFailed
 from grader.marking.release import handout
@@ -40,7 +41,7 @@ ros2-course copy    # or, with `pip install 'ros2-notebook-course[lab]'`, ros2-c
 def version(course: Path) -> str:
     """The version of the course. Raises CommandFailed if what it compiles has another one."""
     project = _project(course)
-    found = project["version"]
+    found: str = project["version"]
     for folder in VERSIONED:
         other = _project(course / folder)
         pin = f"{other['name']}=={found};"
@@ -52,7 +53,7 @@ def version(course: Path) -> str:
     return found
 
 
-def _project(folder: Path) -> dict:
+def _project(folder: Path) -> Any:
     return tomllib.loads((folder / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 

@@ -70,7 +70,7 @@ def write_pages(
     kept: the folder with the outputs of earlier builds. report: called with the name of each notebook that is
     executed. Raises CommandFailed.
     """
-    notebooks = {"course": [], "exercises": []}
+    notebooks: dict[str, list[Path]] = {"course": [], "exercises": []}
     for source in sorted(student_files(course), key=course_order):
         name = source.relative_to(course)
         if name == START:

@@ -15,8 +15,8 @@ def nbgrader(course: Path, *arguments: str, **variables: str) -> None:
     variables: more of the environment.
     """
     command = [sys.executable, "-m", "nbgrader", *arguments]
-    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
-    done = subprocess.run(command, cwd=course, text=True, env={**os.environ, **variables}, **output)
+    env, pipe, same = {**os.environ, **variables}, subprocess.PIPE, subprocess.STDOUT
+    done = subprocess.run(command, cwd=course, text=True, env=env, stdout=pipe, stderr=same)
     if done.returncode:
         raise failure(course, " ".join(arguments), done.stdout)
 

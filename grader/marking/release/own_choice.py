@@ -30,7 +30,7 @@ WORTH = re.compile(r"\(\d+(?:\.\d+)? points?\)$", re.M)
 ROW_END = re.compile(r"\| *\d+(?:\.\d+)? *\|$")
 
 
-class OwnChoice(NbGraderPreprocessor):
+class OwnChoice(NbGraderPreprocessor):  # type: ignore[misc]
     """The first step of nbgrader's `generate_assignment`."""
 
     file = Unicode(str(FILE), help="the instructor's choice").tag(config=True)
@@ -85,7 +85,7 @@ def choose(notebook: NotebookNode, choice: Mapping[str, Any], assignment: str) -
 
 
 def _name(cell: NotebookNode) -> str:
-    return cell.metadata.nbgrader.grade_id.removesuffix("-points")
+    return str(cell.metadata.nbgrader.grade_id).removesuffix("-points")
 
 
 def _set_row(notebook: NotebookNode, heading: NotebookNode, part: re.Pattern[str], text: str) -> None:

@@ -30,8 +30,8 @@ def submit_samples(course: Path, assignment: str) -> None:
 
 
 def _is_answer(cell: NotebookNode) -> bool:
-    return cell.metadata.get("nbgrader", {}).get("solution", False)
+    return bool(cell.metadata.get("nbgrader", {}).get("solution", False))
 
 
 def _grade_id(cell: NotebookNode) -> str:
-    return cell.metadata.nbgrader.grade_id
+    return str(cell.metadata.nbgrader.grade_id)

@@ -8,6 +8,7 @@ import sys
 import urllib.parse
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from grader.course_files.course_map import course_map
 from grader.course_files.course_notebooks import CHAPTERS, Chapter, CoursePart, read_text
@@ -38,7 +39,8 @@ class Counter(Node):
 
 def home_page(root: Path) -> str:
     """The page as HTML. root: the folder with course/ and exercises/."""
-    drive, program = _drive(), {}
+    drive = _drive()
+    program: dict[str, Any] = {}
     exec(COUNTER, program)
     graph = plot_graph(drive)
     parts = {

@@ -38,7 +38,7 @@ def executed_pages(
 
 
 def _executed(course: Path, name: Path, kept: Path, report: Callable[[str], None]) -> NotebookNode:
-    notebook = nbformat.read(course / name, 4)
+    notebook: NotebookNode = nbformat.read(course / name, 4)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     digest = _digest(course / name, [cell.source for cell in code])
     record = kept / name.with_suffix(".json")

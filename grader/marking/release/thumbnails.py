@@ -72,8 +72,8 @@ def find_goal(name: str, cells: Sequence[NotebookNode]) -> tuple[int, str, str]:
         shown = _shown(cell.source)
         if shown:
             return index, shown[0], drawing or shown[1]
-    cell = f"the cell {wanted!r}" if wanted else 'a cell whose id begins with "goal"'
-    raise CommandFailed(f"{name} has no picture: {cell} must end with a replay or a plot of a recording")
+    which = f"the cell {wanted!r}" if wanted else 'a cell whose id begins with "goal"'
+    raise CommandFailed(f"{name} has no picture: {which} must end with a replay or a plot of a recording")
 
 
 def _shown(source: str) -> tuple[str, str] | None:
@@ -99,7 +99,9 @@ def _last(source: str) -> ast.stmt | None:
 
 
 def _without_last(source: str) -> list[str]:
-    return source.splitlines()[: _last(source).lineno - 1]
+    last = _last(source)
+    assert last is not None, "find_goal has found a statement"
+    return source.splitlines()[: last.lineno - 1]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -6,6 +6,7 @@ import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from grader.marking.errors import SandboxMissing
 from grader.marking.sandbox.confinement import HOME
@@ -37,16 +38,17 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
     """
     for path in extra:
         os.stat(path)
-    python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
+    python = map(Path, (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix))
     course = *_packages(), MODULES, TOOLS  # whole folders: a new interpreter lists them
-    paths = {Path(path).absolute() for path in (*python, *course, *extra)}
+    paths = {path.absolute() for path in (*python, *course, *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
     return sorted(map(str, hidden))
 
 
 def _packages() -> list[Path]:
-    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in PACKAGES]
+    specs: list[Any] = list(map(importlib.util.find_spec, PACKAGES))  # all of them are packages
+    return [Path(spec.submodule_search_locations[0]) for spec in specs]
 
 
 def _links(program: str) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ class ConfinedProcess:
     """A running student's process. `kill` may be called from any thread, the rest from one."""
 
     def __init__(self, pidfd: int, report: socket.socket) -> None:
-        self.pid = int(re.search(r"^Pid:\s*(\S+)", Path(f"/proc/self/fdinfo/{pidfd}").read_text(), re.M)[1])
+        self.pid = int(re.findall(r"^Pid:\s*(\S+)", Path(f"/proc/self/fdinfo/{pidfd}").read_text(), re.M)[0])
         self._pidfd = pidfd
         self._lock = threading.Lock()
         self._report = report

@@ -84,7 +84,7 @@ def _load(order: dict[str, Any]) -> EntryFunction:
     for name in order["preload"]:
         importlib.import_module(name)
     module, _, function = order["entry"].partition(":")
-    entry = getattr(importlib.import_module(module), function)
+    entry: EntryFunction = getattr(importlib.import_module(module), function)
     # Bytecode of what was imported until here is cached; that of students' modules is not.
     sys.dont_write_bytecode, os.environ["PYTHONDONTWRITEBYTECODE"] = True, "1"
     gc.collect()

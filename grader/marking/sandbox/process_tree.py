@@ -22,7 +22,8 @@ class TreeUsage:
 
 def tree_usage(process: int, processes: int) -> TreeUsage:
     """Measure a process and its descendants. processes: an open /proc. See proc(5) for `stat`."""
-    fields, children = {}, {}
+    fields: dict[int, list[bytes]] = {}
+    children: dict[int, list[int]] = {}
     for name in os.listdir(processes):
         with contextlib.suppress(OSError, ValueError):  # it may have ended
             stat = _read(f"{int(name)}/stat", processes).rpartition(b")")[2].split()

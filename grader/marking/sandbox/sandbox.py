@@ -7,7 +7,7 @@ import threading
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from grader.marking.errors import SandboxFailed, SandboxMissing
 from grader.marking.sandbox import bubblewrap, landlock, separate_user
@@ -52,7 +52,7 @@ class Sandbox:
                 "The sandbox filters system calls by their numbers on x86_64, and this machine is "
                 f"{platform.machine()}: mark on a Linux x86_64 machine."
             )
-        self._order = {
+        self._order: dict[str, Any] = {
             "entry": entry,
             "preload": list(preload),
             "imports": [str(path) for path in imports],
@@ -67,7 +67,7 @@ class Sandbox:
     @property
     def isolation(self) -> str:
         """Return how the processes are isolated: one of ISOLATIONS."""
-        kind = self._order["kind"]
+        kind: str = self._order["kind"]
         return f"{USER} with Landlock" if kind == USER and landlock.version() else kind
 
     def _start_warm(self) -> WarmProcess:

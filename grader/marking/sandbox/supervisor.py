@@ -28,9 +28,7 @@ OUT_OF_MEMORY = 70  # the exit status of a confined process after an uncaught Me
 EntryFunction = Callable[[socket.socket], Any]
 
 
-def supervise(
-    entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement
-) -> NoReturn:
+def supervise(entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement) -> NoReturn:
     """Start a confined process and watch it until it ends; for a fresh child of the fork server.
 
     Sends two messages over `report`: {} with its pidfd once it runs, or {"failed": why}; then its ProcessEnd.
@@ -43,9 +41,7 @@ def supervise(
         os._exit(0)
 
 
-def _supervise(
-    entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement
-) -> None:
+def _supervise(entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement) -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     linux.die_with_parent(signal.SIGKILL)
     with confinement.home_folder(how) as home, tempfile.TemporaryFile() as stderr:
@@ -150,12 +146,7 @@ def _tail(stderr: IO[bytes]) -> str:
 
 
 def _become_confined(
-    entry: EntryFunction,
-    wire: socket.socket,
-    answer: int,
-    stderr: IO[bytes],
-    how: Confinement,
-    home: Home,
+    entry: EntryFunction, wire: socket.socket, answer: int, stderr: IO[bytes], how: Confinement, home: Home
 ) -> NoReturn:
     """Confine this process, then run the entry in it. Never returns."""
     code = 1
@@ -168,10 +159,10 @@ def _become_confined(
             os.write(answer, b"ready")
         except Exception as error:
             os.write(answer, str(error).encode())
-            return  # the `finally` below ends the process
-        os.close(answer)
-        entry(wire)
-        code = 0
+        else:
+            os.close(answer)
+            entry(wire)
+            code = 0
     except SystemExit as error:
         code = error.code if isinstance(error.code, int) else int(error.code is not None)
     except MemoryError:

@@ -39,13 +39,13 @@ class WarmProcess:
         with tempfile.TemporaryFile() as errors:
             try:
                 with child_end:
-                    self._process = _spawn(order, child_end, errors, self._folder.name)
-                self._await(order, errors)
+                    self._process = process = _spawn(order, child_end, errors, self._folder.name)
+                self._await(process, order, errors)
             except BaseException:
                 self.end()
                 raise
 
-    def _await(self, order: dict[str, Any], errors: IO[bytes]) -> None:
+    def _await(self, process: subprocess.Popen[bytes], order: dict[str, Any], errors: IO[bytes]) -> None:
         self._control.settimeout(START_S)
         try:
             self._control.send(json.dumps(order).encode())
@@ -57,7 +57,7 @@ class WarmProcess:
             raise SandboxFailed(text) from None
         self._control.settimeout(None)
         if not answer:
-            self._process.wait()
+            process.wait()
             errors.seek(0)
             tail = errors.read()[-STDERR_BYTES:].decode(errors="replace").strip()
             raise bubblewrap.forbidden(tail) if tail.startswith("bwrap: ") else SandboxFailed(

@@ -93,8 +93,9 @@ class CellRunner:
                 except KeyboardInterrupt:  # while it awaited something
                     cell.cancel()
         self._descriptors.show()
-        if not cell.cancelled() and cell.exception() is not None:  # a cell has broken IPython itself
-            self._sender.show(output=error_output(cell.exception(), {}))
+        broken = None if cell.cancelled() else cell.exception()
+        if broken is not None:  # a cell has broken IPython itself
+            self._sender.show(output=error_output(broken, {}))
         self._sender.done(threads=threading.active_count() > self._threads, used_up=used_up())
 
     def _hand_over(self, exercise: str, nodes: Sequence[Any]) -> None:

@@ -18,12 +18,7 @@ def error_output(error: BaseException, cells: Mapping[str, int]) -> dict[str, An
     """
     summary = traceback.TracebackException.from_exception(error, compact=True)
     lines = list(_format_chain(summary, cells, ERRORS))
-    return {
-        "output_type": "error",
-        "ename": type(error).__name__,
-        "evalue": _text(error),
-        "traceback": lines,
-    }
+    return {"output_type": "error", "ename": type(error).__name__, "evalue": _text(error), "traceback": lines}
 
 
 def _format_chain(

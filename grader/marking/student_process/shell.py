@@ -31,7 +31,7 @@ INLINE = "module://matplotlib_inline.backend_inline"
 class DisplaySender(DisplayPublisher):
     """Sends what `display` shows."""
 
-    def publish(
+    def publish(  # type: ignore[override]  # without the deprecated `source`
         self,
         data: dict[str, Any],
         metadata: dict[str, Any] | None = None,
@@ -53,6 +53,8 @@ class DisplaySender(DisplayPublisher):
 class ValueHook(DisplayHook):
     """Sends the value of a cell's last line."""
 
+    shell: Shell
+
     def write_output_prompt(self) -> None:
         """The number is part of the output."""
 
@@ -66,7 +68,7 @@ class ValueHook(DisplayHook):
 class Shell(InteractiveShell):
     """An IPython shell that behaves like that of a notebook's kernel."""
 
-    sender: OutputSender = AnyTrait()
+    sender: OutputSender = AnyTrait()  # type: ignore[assignment]
     display_pub_class = Type(DisplaySender)
     displayhook_class = Type(ValueHook)
 
@@ -94,7 +96,7 @@ class Shell(InteractiveShell):
     async def execute(self, source: str) -> None:
         """Run one cell; its outputs, errors too, are sent."""
         try:
-            code, problem = self.transform_cell(source), None
+            code, problem = self.transform_cell(source), None  # type: ignore[no-untyped-call]
         except Exception:
             code, problem = source, sys.exc_info()
         await self.run_cell_async(
@@ -113,7 +115,7 @@ def start_shell(sender: OutputSender) -> Shell:
     sys.stdout, sys.stderr = Stream(sender, "stdout", 1), Stream(sender, "stderr", 2)
     warnings.filterwarnings("ignore", "To exit: use")  # IPython's, for sys.exit(); it shows a path
     activate_matplotlib(INLINE)
-    configure_inline_support(made, INLINE)
+    configure_inline_support(made, INLINE)  # type: ignore[no-untyped-call]
     return made
 
 

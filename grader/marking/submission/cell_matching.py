@@ -128,7 +128,7 @@ def _mutual_best(
 
 
 def _clearly_best(values: Mapping[int, float]) -> tuple[int | None, float]:
-    best, *others = sorted(values, key=values.__getitem__, reverse=True)[:2] or [None]
-    if best is None or (others and values[best] < values[others[0]] + MIN_MARGIN):
+    best = sorted(values, key=values.__getitem__, reverse=True)[:2]
+    if not best or (len(best) == 2 and values[best[0]] < values[best[1]] + MIN_MARGIN):
         return None, 0.0
-    return best, values[best]
+    return best[0], values[best[0]]

@@ -15,7 +15,7 @@ class CellPlace(NamedTuple):
     """A cell by its index, in the release or among the submitted cells."""
 
     released: bool
-    index: int
+    at: int
 
 
 def order_cells(
@@ -27,7 +27,7 @@ def order_cells(
     """
     seen = [*((s, CellPlace(True, r)) for r, s in chosen.items()), *((s, CellPlace(False, s)) for s in own)]
     order = [place for _, place in sorted(seen)]
-    released = [place.index for place in order if place.released]
+    released = [place.at for place in order if place.released]
     code = [r for r in released if release[r].kind == "code"]
     moved = sorted(set(code) - set(_in_order(code)))
     # A missing cell has a position only if those of the release are in order.
@@ -62,7 +62,7 @@ def _as_released(release: Sequence[Cell], order: Sequence[CellPlace]) -> list[Ce
     waiting: list[CellPlace] = []
     for place in order:
         if place.released:
-            before[place.index], waiting = waiting, []
+            before[place.at], waiting = waiting, []
         else:
             waiting.append(place)
     cells = [[*before.get(r, ()), CellPlace(True, r)] for r in range(len(release))]
@@ -71,7 +71,7 @@ def _as_released(release: Sequence[Cell], order: Sequence[CellPlace]) -> list[Ce
 
 def _place_of_missing(release: Sequence[Cell], order: Sequence[CellPlace], r: int) -> int:
     """Directly after the previous cell; a test directly before the next one: after the student's own."""
-    known = {place.index: position for position, place in enumerate(order) if place.released}
+    known = {place.at: position for position, place in enumerate(order) if place.released}
     later = [known[other] for other in range(r + 1, len(release)) if other in known]
     if is_test(release[r]):
         return min(later, default=len(order))

@@ -44,9 +44,8 @@ class Cell:
     def checksum(self) -> str:
         """The checksum that nbgrader gives a released cell."""
         kinds = (str(self.settings.get(key)) for key in ("grade", "solution", "locked"))
-        points = self.settings.get("points")
-        known = isinstance(points, (int, float)) and abs(points) < MAX_POINTS
-        worth = str(float(points)) if known and self.settings.get("grade") else ""
+        points = self.settings.get("points") if self.settings.get("grade") else None
+        worth = str(float(points)) if isinstance(points, (int, float)) and abs(points) < MAX_POINTS else ""
         text = "".join([self.text, self.kind, *kinds, self.name, worth])
         return hashlib.md5(text.encode(errors="replace")).hexdigest()
 
@@ -142,7 +141,7 @@ def _kind(raw: Mapping[str, Any], oddities: list[str], number: int) -> str:
     if kind in ("heading", "html"):  # of the formats 2 and 3
         return "markdown"
     if kind in KINDS:
-        return kind
+        return str(kind)
     saw = f"the unknown type {quote(kind)}" if isinstance(kind, str) else "no type"
     oddities.append(f"Cell {number} of the notebook has {saw}; it was read anyway.")
     return ""

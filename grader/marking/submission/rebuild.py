@@ -9,6 +9,7 @@ import copy
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from nbformat import NotebookNode
 
@@ -185,7 +186,7 @@ def _with_text(node: NotebookNode, text: str, kind: str) -> NotebookNode:
 
 
 def _new(kind: str, text: str, cell_id: str) -> NotebookNode:
-    ran = {"outputs": [], "execution_count": None} if kind == "code" else {}
+    ran: dict[str, Any] = {"outputs": [], "execution_count": None} if kind == "code" else {}
     return NotebookNode(id=cell_id, cell_type=kind, metadata=NotebookNode(), source=text, **ran)
 
 
@@ -194,8 +195,8 @@ def _in_order(
 ) -> list[NotebookNode]:
     cells = []
     for place in order:
-        own = None if place.released else submitted_cells[place.index]
-        cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.index])
+        own = None if place.released else submitted_cells[place.at]
+        cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.at])
     reserved = {node.id for node in nodes}
     for place, cell in zip(order, cells, strict=True):
         if not place.released and cell.id in reserved:

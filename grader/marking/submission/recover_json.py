@@ -84,8 +84,8 @@ def _unique(pairs: Sequence[tuple[str, Any]], twice: list[str]) -> dict[str, Any
     """The object with these pairs; `twice` gets the first key that is repeated in it."""
     unique = dict(pairs)
     if len(unique) < len(pairs):
-        seen: set[str] = set()
-        twice.append(next(name for name, _ in pairs if name in seen or seen.add(name)))
+        left = dict.fromkeys(unique, True)
+        twice.append(next(name for name, _ in pairs if not left.pop(name, False)))
     return unique
 
 
@@ -97,7 +97,7 @@ def _cells_before(
     start = CELLS.search(text)
     cells: list[Any] = []
     left_out: list[int] = []  # how many cells stand before each damage that others follow
-    position = BETWEEN.match(text, start.end()).end() if start else len(text)
+    position = _after_commas(text, start.end()) if start else len(text)
     while text[position : position + 1] not in ("", "]"):
         try:
             cell, position = decoder.raw_decode(text, position)
@@ -108,7 +108,7 @@ def _cells_before(
             left_out.append(len(cells))
             cell, position = found
         cells.append(cell)
-        position = BETWEEN.match(text, position).end()
+        position = _after_commas(text, position)
     if not cells:
         raise Unusable(f"{quote(file)} is damaged from its beginning; expected a notebook. {AGAIN}")
     for before in left_out:
@@ -119,6 +119,11 @@ def _cells_before(
             f"The notebook's file is damaged after cell {len(cells)}; the cells before that were marked."
         )
     return cells
+
+
+def _after_commas(text: str, position: int) -> int:
+    between = BETWEEN.match(text, position)
+    return between.end() if between else position
 
 
 def _next_cell(text: str, position: int, decoder: json.JSONDecoder) -> tuple[dict[str, Any], int] | None:

@@ -64,7 +64,8 @@ def draw_case(kind: str, seed: int) -> Case:
     draw = random.Random(f"bag {kind} {seed}")
     sign, begin = draw.choice((-1.0, 1.0)), BEGIN
     mount = (round(draw.uniform(0.0, 0.05), 3), 0.0, draw.choice((0.0, math.pi / 2, -math.pi / 2, math.pi)))
-    amount, topics = 0.0, ()
+    amount = 0.0
+    topics: tuple[str, ...] = ()
     if kind == "wheel_radius":
         amount, topics = 1.0 + sign * draw.uniform(0.06, 0.14), (ODOM, TF)
     elif kind == "lidar_yaw":
@@ -114,7 +115,8 @@ class _Poses:
     """The poses of odometry whose distances and angles are a factor too long, by stamp."""
 
     def __init__(self, factor: float) -> None:
-        self.factor, self.known = factor, {}
+        self.factor = factor
+        self.known: dict[int, tuple[float, float, float]] = {}
         self.before: tuple[float, float, float] | None = None
         self.pose = (0.0, 0.0, 0.0)
 
@@ -159,7 +161,7 @@ def _place(position: Any, rotation: Any, pose: tuple[float, float, float]) -> No
 
 
 def _nanoseconds(stamp: Any) -> int:
-    return stamp.sec * SECOND + stamp.nanosec
+    return int(stamp.sec * SECOND + stamp.nanosec)
 
 
 def _stamp(stamp: Any, nanoseconds: int) -> None:
@@ -229,10 +231,7 @@ def _between(one: RobotMessage, other: RobotMessage) -> bytes:
 
 
 CHANGES: dict[str, Callable[[Sequence[RobotMessage], Case], list[RobotMessage]]] = {
-    "wheel_radius": _scaled,
-    "clock_offset": _offset,
-    "two_odometries": _doubled,
-    BUSY: _twice_as_often,
+    "wheel_radius": _scaled, "clock_offset": _offset, "two_odometries": _doubled, BUSY: _twice_as_often
 }
 
 

@@ -4,6 +4,7 @@ import itertools
 import math
 
 from grader.checks import Missed, hinting, keeps_clear, otherwise, publishes, within
+from grader.checks.motion import world_in
 from grader.exercise import Exercise
 from grader.exercises.control.gap.slope import MOST, Slope
 from grader.geometry.near import is_near
@@ -114,7 +115,7 @@ def stands_at_the_distance(run: Recording) -> None:
 
 def _distances(run: Recording, begin: Seconds) -> list[tuple[float, Seconds]]:
     """Return how far (m) the wall was ahead of the robot from a stamp on, and when."""
-    wall = run.world.bounds[2]
+    wall = world_in(run).bounds[2]
     return [(wall - pose.x, pose.stamp) for pose in run.path if pose.stamp >= begin - EDGE]
 
 
@@ -122,14 +123,15 @@ def _drives_the_wrong_way(run: Recording) -> bool:
     """Return whether the first speeds have another sign than the errors of the distances beside them."""
     pairs = zip(run.messages("/distance")[:20], run.messages("/speed")[:20], strict=False)
     target = gap.drawn.target
-    return sum((row.message.data - target) * speed.message.data < 0 for row, speed in pairs) > 10
+    return sum(bool((row.message.data - target) * speed.message.data < 0) for row, speed in pairs) > 10
 
 
 def _speed_on_arrival(run: Recording) -> float:
     """The last speed before the robot was nearer than it should."""
     target = gap.drawn.target
     passed = next((stamp for distance, stamp in _distances(run, 0.0) if distance < target), math.inf)
-    return last_before(run.messages("/speed"), passed).message.data
+    last = last_before(run.messages("/speed"), passed)
+    return float(last.message.data) if last else 0.0
 
 
 def _filtered(values: list[float], weight: float) -> list[float]:

@@ -21,14 +21,7 @@ from grader.exercises.covariance.drift.beliefs import (
     text_of,
     yaw_nees,
 )
-from grader.exercises.covariance.drift.short_drives import (
-    DRIVES,
-    PERIOD,
-    SECONDS,
-    STEPS,
-    drives,
-    encoders,
-)
+from grader.exercises.covariance.drift.short_drives import DRIVES, PERIOD, SECONDS, STEPS, drives, encoders
 from grader.geometry.near import is_near
 from grader.variants import Variants
 from sim.evidence import Message, Recording, since_start
@@ -121,7 +114,7 @@ def stays_at_rest(run: Recording, beliefs: list[Belief]) -> None:
         if not np.allclose(first, 0.0, atol=TINY):
             hint = "A reset defines where the robot is: there is no error yet. Set the covariance to 0, too."
             raise Missed(f"0 in the first message of drive {number}", f"{first[0, 0]:.3g} m² for x", hint)
-        rests = (~belief.drive.rolled.any(axis=1)).nonzero()[0]
+        rests = np.flatnonzero(~belief.drive.rolled.any(axis=1))
         for step in rests[rests > 0]:
             before, after = (belief.covariances[each][AXES] for each in (step - 1, step))
             if not np.allclose(after, before, rtol=SAME, atol=TINY):

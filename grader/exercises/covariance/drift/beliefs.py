@@ -31,7 +31,7 @@ class Belief(NamedTuple):
     @property
     def covariance(self) -> np.ndarray:
         """The last covariance, of x, y and yaw."""
-        return self.covariances[-1][AXES]
+        return np.asarray(self.covariances[-1][AXES])
 
     def score(self, covariance: np.ndarray) -> float:
         """The log score, -log of the density at the true pose, with another covariance; inf if it is none."""

@@ -64,7 +64,7 @@ def _rolled(rng: np.random.Generator) -> np.ndarray:
         steps += [(speed, turn * rng.uniform(0.3, 1.2))] * int(rng.integers(8, 25))
     steps[stop : stop + 8] = [(0.0, 0.0)] * 8
     moves = np.array([(0.0, 0.0), *steps[: STEPS - 1]])
-    return (moves[:, :1] + moves[:, 1:] * np.array([-TRACK / 2, TRACK / 2])) * PERIOD
+    return np.asarray((moves[:, :1] + moves[:, 1:] * np.array([-TRACK / 2, TRACK / 2])) * PERIOD)
 
 
 def _ends(rolled: np.ndarray, rng: np.random.Generator, number: int) -> np.ndarray:

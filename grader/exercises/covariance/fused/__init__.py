@@ -11,14 +11,7 @@ from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.no_data import no_data
 from grader.exercise import Exercise, Scenario
 from grader.exercises.covariance.fused.fair_seeds import FAIR
-from grader.exercises.covariance.fused.robot_streams import (
-    PERIOD,
-    SECONDS,
-    STEPS,
-    STREAMS,
-    robots,
-    streams,
-)
+from grader.exercises.covariance.fused.robot_streams import PERIOD, SECONDS, STEPS, STREAMS, robots, streams
 from grader.exercises.covariance.fused.tracks import (
     BETTER,
     Track,

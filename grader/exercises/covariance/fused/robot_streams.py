@@ -63,7 +63,8 @@ def _stream(number: int, rng: np.random.Generator, bias: float, slipped: float, 
     speeds, rates = _motion(rng, rests=number % 3 != 2)
     turns = rates * PERIOD
     turns[0] = 0.0  # a drive begins with the first measurement
-    rolled = sum(np.abs(speeds + side * rates * TRACK / 2) for side in (-1, 1)) * PERIOD
+    both = (np.abs(speeds + side * rates * TRACK / 2) for side in (-1, 1))
+    rolled = sum(both, np.zeros(len(rates))) * PERIOD
     spread = SLIP**2 * rolled / TRACK**2
     spread[0] = 0.0
     gyro = rates + bias + _noise(rng, np.full(len(rates), NOISE**2), noise)
@@ -96,7 +97,8 @@ def _motion(rng: np.random.Generator, rests: bool) -> tuple[np.ndarray, np.ndarr
 def _noise(rng: np.random.Generator, variances: np.ndarray, total: float) -> np.ndarray:
     """Independent normal errors of these variances whose sum is `total` of its standard deviations."""
     drawn = rng.standard_normal(len(variances)) * np.sqrt(variances)
-    return drawn + (total * math.sqrt(variances.sum()) - drawn.sum()) * variances / variances.sum()
+    off = total * math.sqrt(variances.sum()) - drawn.sum()
+    return np.asarray(drawn + off * variances / variances.sum())
 
 
 def _stalls(rng: np.random.Generator) -> np.ndarray:

@@ -54,7 +54,7 @@ def wheels_error(track: Track) -> float:
 
 def gyro_error(track: Track) -> float:
     """The error (rad) that the gyro's rates alone, added up, have at the end of a drive."""
-    return float(track.stream.gyro[1 : STEPS + 1].sum()) * PERIOD - track.stream.yaws[STEPS]
+    return float(track.stream.gyro[1 : STEPS + 1].sum()) * PERIOD - float(track.stream.yaws[STEPS])
 
 
 def silent(tracks: list[Track], sensor: str) -> list[Track]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
-from rclpy.time import Duration
+from rclpy.time import Duration, Time
 from sensor_msgs.msg import BatteryState
 from warehouse_msgs.msg import Order
 
@@ -151,7 +151,7 @@ class Desk(Node):
         super().__init__("desk")
         self.script = Script(seed)
         self.ahead = list(self.script.situations)
-        self.deadlines: dict[int, Duration] = {}
+        self.deadlines: dict[int, Time] = {}
         self.share = WELL
         self.orders = self.create_publisher(Order, "/orders", LATCHED)
         self.battery = self.create_publisher(BatteryState, "/battery_state", 10)

@@ -5,7 +5,7 @@ from typing import Any
 
 from grader.checks import Missed, nearest_person, shift, traveled
 from grader.checks.check import Hints
-from grader.checks.motion import after_a_touch, stood_still
+from grader.checks.motion import after_a_touch, stood_still, world_in
 from grader.checks.shift import Job
 from grader.diagnosis.driving import still_obeyed
 from grader.exercise import Exercise, Scenario
@@ -121,7 +121,7 @@ def touches_nothing(run: Recording) -> None:
 def stands_blind(run: Recording) -> None:
     """Whenever the lidar falls silent, the robot stops within 1 s."""
     drove = False
-    for begin, end in run.world.lidar.silent:
+    for begin, end in world_in(run).lidar.silent:
         if begin + SETTLING > run.stamp:
             break
         before, silent = Window(begin - SETTLING, begin), Window(begin + SETTLING, end)

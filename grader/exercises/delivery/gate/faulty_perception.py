@@ -3,7 +3,7 @@
 import functools
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from geometry_msgs.msg import PoseArray, PoseStamped
@@ -86,7 +86,7 @@ class FaultyPerception(Localized):
             self.people_pub.publish(pose_array(of_people, people))
         self.pose_pub.publish(pose_stamped(of_pose, *self.pose))
 
-    def seen(self, scan: LaserScan) -> tuple[list[Point], list[Point]]:
+    def seen(self, scan: LaserScan) -> tuple[list[Sequence[float]], list[Sequence[float]]]:
         """Return points of people, and of boxes that may be pushed."""
         points = points_of(scan, self.pose)
         points = points[clearance(self.world, points[:, 0], points[:, 1]) > 0.15]
@@ -98,7 +98,7 @@ class FaultyPerception(Localized):
         """Return a point so far (m) from the robot."""
         return self.pose[0] + away * math.cos(self.side), self.pose[1] + away * math.sin(self.side)
 
-    def change(self, now: Seconds, people: list[Point]) -> None:
+    def change(self, now: Seconds, people: list[Sequence[float]]) -> None:
         """Let a fault begin or end, if it is time."""
         if self.fault:
             if now - self.begin >= LASTS:
@@ -122,6 +122,7 @@ class GoalCycle(Localized):
 
     def next(self, here: Point) -> Point:
         """Return a place at a shelf that is neither here nor at the other end."""
+        assert self.world.warehouse is not None, "floor_of is a warehouse's"
         places = [pickup[:2] for pickup in self.world.warehouse.pickups]
         places.sort(key=lambda place: math.dist(here, place))
         return self.draw.choice([place for place in places if not is_near(here, place, 1.0)][:2])

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from grader.checks import Missed, publishes
+from grader.checks.motion import world_in
 from grader.checks.no_data import no_data
 from grader.checks.people import near_something
 from grader.checks.topics import longest_pause
@@ -91,13 +92,13 @@ def finds_what_stands(run: Recording) -> None:
     hint = "Floor.strange returns the points that the map doesn't explain; publish them all."
     for row in from_student(run, OBSTACLES)[::EACH]:
         points, person = _points(row), _nearest(_person(run), _time(row))[1:3]
-        person_in_view = in_view(run.world, run.world.start[:2], person, FAR, 0.0)
+        person_in_view = in_view(world_in(run), world_in(run).start[:2], person, FAR, 0.0)
         for box in [] if person_in_view else boxes:
             if not _has(points, box):
                 expected = f"a point of the box at {_text(box)}"
                 hint = FROM_THE_MIDDLE if _begins_at_base_link(run, row) else hint
                 raise Missed(expected, f"none within {REACH} m of it at {row.stamp:.3g} s", hint)
-        gaps = clearance(run.world, *np.array(points).T) if points else []
+        gaps = clearance(world_in(run), *np.array(points).T) if points else np.array([])
         mapped = [point for point, gap in zip(points, gaps, strict=True) if gap < MAPPED]
         if mapped:
             saw = f"{_text(mapped[0])} at {row.stamp:.3g} s, which is on the map"
@@ -147,10 +148,9 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
 
     The lidar is off the middle of a robot that turns, so a side of a box may come into view as if it walked.
     """
-    hits = []
-    for scan in [scan for scan in from_course(run, "/scan") if _time(scan) <= end]:
-        pose = run.world.lidar.mounted_at(_nearest(run.path, _time(scan))[1:])
-        hits.append(points_of(scan.message, pose).tolist())
+    lidar, scans = world_in(run).lidar, [scan for scan in from_course(run, "/scan") if _time(scan) <= end]
+    poses = [lidar.mounted_at(_nearest(run.path, _time(scan))[1:]) for scan in scans]
+    hits = [points_of(scan.message, pose).tolist() for scan, pose in zip(scans, poses, strict=True)]
 
     def is_plain(box: Point) -> bool:
         seen = [[hit for hit in row if math.dist(hit, box) < BOX] for row in hits]
@@ -167,7 +167,7 @@ def _begins_at_base_link(run: Recording, row: Message) -> bool:
         return False
     robot = _nearest(run.path, _time(row))[1:]
     off = [_off(_points(sent), points_of(scan.message, pose))
-           for pose in (robot, run.world.lidar.mounted_at(robot))]
+           for pose in (robot, world_in(run).lidar.mounted_at(robot))]
     return off[0] < EXACT < off[1]
 
 
@@ -219,11 +219,11 @@ def _speed_of_person(run: Recording, row: Message, lasting: Seconds) -> float:
 def _is_seen(run: Recording, row: Message, lasting: Seconds) -> bool:
     """Return whether the person has been in view for a while."""
     there = (_nearest(_person(run), _time(row) - back)[1:3] for back in (lasting, lasting / 2, 0.0))
-    return all(in_view(run.world, run.world.start[:2], place, FAR - 0.5) for place in there)
+    return all(in_view(world_in(run), world_in(run).start[:2], place, FAR - 0.5) for place in there)
 
 
 def _boxes_in_view(run: Recording) -> list[Point]:
-    here, world = run.world.start[:2], run.world
+    here, world = world_in(run).start[:2], world_in(run)
     boxes = [(track[0].x, track[0].y) for name, track in run.tracks.items() if name.startswith("box")]
     return [box for box in boxes if CLOSE < math.dist(here, box) < FAR and in_view(world, here, box, FAR)]
 
@@ -246,5 +246,5 @@ def _nanoseconds(row: Message) -> tuple[int, int]:
     return row.message.header.stamp.sec, row.message.header.stamp.nanosec
 
 
-def _text(place: Point) -> str:
+def _text(place: Point | Pose2D) -> str:
     return f"{place[0]:.2f}, {place[1]:.2f}"

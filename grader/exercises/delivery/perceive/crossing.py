@@ -48,7 +48,7 @@ def _is_good(world: World, here: Point, route: Route) -> bool:
     speed = world.people[0].speed
     times = np.arange(0.0, COMES[1], 0.25)
     seen = [when for when in times if in_view(world, here, route.point(speed * when), FAR + 1.0, 0.0)]
-    return bool(seen) and seen[0] > COMES[0]
+    return bool(seen and seen[0] > COMES[0])
 
 
 def in_view(world: World, here: Point, there: Point, reach: float, gap: float = 0.25) -> bool:

@@ -123,7 +123,7 @@ def _number(text: str) -> float:
 
 def _is_turned(sent: Broadcast, position: float) -> bool:
     """Return whether it turns by this angle (rad), about any axis."""
-    return abs(abs(sent.message.transform.rotation.w) - abs(math.cos(position / 2))) < NEAR
+    return bool(abs(abs(sent.message.transform.rotation.w) - abs(math.cos(position / 2))) < NEAR)
 
 
 def _require(sent: Broadcast, place: Sequence[float], turn: Sequence[float], when: str, **part: Any) -> None:

@@ -2,9 +2,11 @@
 
 import itertools
 import math
+from typing import Any
 
 from grader.checks import Missed, draws, hinting, keeps_off, otherwise, sends_goals
 from grader.checks.joints import FOLLOW_TRAJECTORY
+from grader.checks.services import sent_at
 from grader.exercise import Exercise
 from grader.exercises.drawing.draw.figure import Designer, designer
 from grader.geometry import Point
@@ -125,7 +127,7 @@ def _figure(run: Recording) -> list[Point]:
     return [(point.x, point.y) for point in from_course(run, "/figure")[0].message.points]
 
 
-def _points(run: Recording) -> list:
+def _points(run: Recording) -> list[Any]:
     """The points of all goals, one after the other."""
     return [point for goal in run.goals_of(FOLLOW_TRAJECTORY[0]) for point in goal.request.trajectory.points]
 
@@ -133,7 +135,7 @@ def _points(run: Recording) -> list:
 def _jump(run: Recording) -> str:
     """A joint that can't get to a goal's first point in its time, and where that is; or nothing."""
     for goal in run.goals_of(FOLLOW_TRAJECTORY[0]):
-        state = last_before(from_course(run, "/joint_states", at_least=0), goal.requested)
+        state = last_before(from_course(run, "/joint_states", at_least=0), sent_at(goal))
         here = dict(zip(state.message.name, state.message.position, strict=True)) if state else {}
         trajectory = goal.request.trajectory
         for point in trajectory.points[:1]:

@@ -12,9 +12,10 @@ from rclpy.node import Node
 from grader.companions.qos import LATCHED
 from grader.geometry import Point
 from grader.worlds.arms import desk_of, side_of
+from sim.world.machines import ArmModel
 
 POINTS = 36
-SHAPES = {
+SHAPES: dict[str, Callable[[float], float]] = {
     "circle": lambda angle: 1.0,
     "flower": lambda angle: 1.0 + 0.2 * math.cos(5 * angle),
     "egg": lambda angle: 1.0 + 0.25 * math.sin(angle),
@@ -27,6 +28,7 @@ def figure(seed: int) -> list[Point]:
     That of seed 1 is in front of the arm; the others are long, and end behind the shoulder, where x < 0.
     """
     draw, arm = random.Random(f"figure {seed}"), desk_of(seed).machine
+    assert isinstance(arm, ArmModel)
     shape = SHAPES[draw.choice(sorted(SHAPES)) if seed > 2 else "circle"]
     reach = arm.shoulder.length + arm.elbow.length
     near, where = reach * draw.uniform(0.58, 0.64), draw.uniform(0.5, 0.64)

@@ -143,7 +143,7 @@ def _measured(seen: Stimulus) -> Seconds:
 
 def _frame(seen: Stimulus) -> str:
     """The frame of the first response."""
-    return seen.responses[0].message.header.frame_id
+    return str(seen.responses[0].message.header.frame_id)
 
 
 def _answer(seen: Stimulus) -> Point:
@@ -173,7 +173,7 @@ def _reason(run: Recording, seen: Stimulus) -> str:
 
 
 def _robot(seen: Stimulus) -> str:
-    return seen.value.header.frame_id.partition("/")[0]
+    return str(seen.value.header.frame_id).partition("/")[0]
 
 
 def _place(run: Recording, seen: Stimulus, when: Seconds) -> Point:

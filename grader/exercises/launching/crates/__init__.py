@@ -136,7 +136,7 @@ def _hands_over(command: CMakeCommand, sources: Sources) -> None:
     target, words = command.words[:1], command.words[1:]
     if not target or "/" in target[0]:
         hint = "The first argument is the package's name; the files come after it."
-        raise Missed(f"${{PROJECT_NAME}} first in {GENERATOR}", *(target or ["nothing"]), hint)
+        raise Missed(f"${{PROJECT_NAME}} first in {GENERATOR}", target[0] if target else "nothing", hint)
     end = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
     named = words[:end]
     left_out = [path for path in FILES if path not in named]

@@ -127,7 +127,8 @@ def _put_in(words: list[str], known: dict[str, str]) -> Iterator[str]:
 
 def _written(text: str) -> Iterator[tuple[str, list[str]]]:
     """Each command's name, and its words as they are written, without quotes."""
-    name, words, depth = "", [], 0
+    name, depth = "", 0
+    words: list[str] = []
     for kind, value, line in _tokens(text):
         if kind == "plain" and not name:
             name, words = value.lower(), []
@@ -160,8 +161,9 @@ def _tokens(text: str) -> Iterator[tuple[str, str, int]]:
                 f"{text[at : at + 20]!r} in line {line}",
                 "Something begins there and never ends: close the quote or bracket.",
             )
-        if found.lastgroup != "left":
-            yield found.lastgroup, found[found.lastgroup], text.count("\n", 0, at) + 1
+        kind = str(found.lastgroup)  # all alternatives are groups
+        if kind != "left":
+            yield kind, found[kind], text.count("\n", 0, at) + 1
         at = found.end()
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from grader.checks import Missed, hinting, offers, publishes
 from grader.checks.packages import names_what_it_imports
-from grader.checks.services import call_text
+from grader.checks.services import call_text, sent_at
 from grader.exercise import Exercise, Scenario
 from grader.exercises.launching.keeper.crates import FIND, FULL, INTERFACES, SCANNED, crates
 from grader.responses import Stimuli, requests_from_course
@@ -88,7 +88,7 @@ def names_the_types(run: PackageRun) -> None:
 
 
 def _label(crate: Any) -> str:
-    return crate.label
+    return str(crate.label)
 
 
 def _crates(call: Call) -> list[Any]:
@@ -101,7 +101,7 @@ def _found(call: Call) -> list[str] | None:
 
 
 def _scanned_before(run: Recording, call: Call) -> list[Any]:
-    return [row.message for row in run.received(SCANNED) if row.stamp < call.requested]
+    return [row.message for row in run.received(SCANNED) if row.stamp < sent_at(call)]
 
 
 def _light_enough(crates: dict[str, Any], call: Call) -> list[Any]:

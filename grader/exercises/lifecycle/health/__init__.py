@@ -1,7 +1,7 @@
 """Diagnostics: a program that reports how the robot is, so that others can act on it."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from grader.checks import Missed, publishes, subscribes
@@ -18,7 +18,7 @@ __all__ = ["BatteryAndMotor", "health"]
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR, STALE = range(4)
 WORDS = ("OK", "WARN", "ERROR", "STALE")
-LEVELS = {
+LEVELS: dict[str, Callable[[float], int]] = {
     "battery": lambda percent: ERROR if percent < 10 else WARN if percent < 30 else OK,
     "motor": lambda celsius: ERROR if celsius >= 80 else WARN if celsius >= 60 else OK,
 }
@@ -121,7 +121,7 @@ def _key(name: str) -> str:
 def _measured(row: Message) -> float:
     """In percent, or in degrees."""
     message = row.message
-    return message.percentage * 100 if hasattr(message, "percentage") else message.temperature
+    return float(message.percentage * 100 if hasattr(message, "percentage") else message.temperature)
 
 
 def _compare(reports: list[PartReport]) -> None:
@@ -129,7 +129,7 @@ def _compare(reports: list[PartReport]) -> None:
     if not reports:
         raise Missed("reports in each state", "none in this one")
     for one in reports:
-        if one.level != one.true:
+        if one.true is not None and one.level != one.true:
             state = f"{one.number:.3g} {'%' if one.name == 'battery' else 'degrees'}"
             if one.true == STALE:
                 state = f"nothing for {one.age:.2g} s"

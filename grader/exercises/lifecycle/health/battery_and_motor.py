@@ -32,8 +32,8 @@ class BatteryAndMotor(TimedNode):
         order = random.sample(levels, 4)
         while order[0] is None:
             random.shuffle(order)
-        again = random.choice(levels[:3])
-        return [*(at_edges[levels.index(level)] for level in order), round(random.uniform(*again), 3)]
+        low, high = random.choice([level for level in levels if level])
+        return [*(at_edges[levels.index(level)] for level in order), round(random.uniform(low, high), 3)]
 
     def tick(self, now: float) -> None:
         """Publish the state of both, unless silent."""

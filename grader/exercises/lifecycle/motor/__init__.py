@@ -4,7 +4,7 @@ import itertools
 from typing import NamedTuple
 
 from grader.checks import Missed, course_calls, hinting, named, serves
-from grader.checks.services import is_refusal, is_success
+from grader.checks.services import is_refusal, is_success, sent_at
 from grader.exercise import Exercise, Scenario
 from grader.exercises.lifecycle.motor.motor_manager import (
     CHANGE,
@@ -136,7 +136,7 @@ def refuses_a_wrong_speed(run: Recording) -> None:
             if not is_refusal(call) and not _is_refused(wanted):
                 expected = f"success=False for {_text(call)}{text}"
                 raise Missed(expected, "no answer" if call.response is None else "success=True", REFUSE)
-            whole = Window(call.requested, call.answered or run.ended.stamp)
+            whole = Window(sent_at(call), call.answered or run.ended.stamp)
             raised = next((error for error in run.errors if whole.contains(error.stamp)), None)
             if raised:
                 expected = f"FAILURE for {_text(call)}{text}"

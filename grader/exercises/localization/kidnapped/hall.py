@@ -61,8 +61,8 @@ def trip(seed: int) -> Trip:
     middle = round(draw.uniform(-4, 4), 2), round(draw.uniform(-4, 4), 2)
     (start, first), (put_down, then) = _leg(draw, middle), _leg(draw, middle)
     lanes = [tuple((x, middle[1]) for x in one) for one in (first, then)]
-    parked = tuple(round(value + draw.uniform(-PARKED, PARKED), 3) for value in start)
-    return Trip(middle, start, put_down, lanes[0], lanes[1], parked, round(draw.uniform(*CARRIED), 1))
+    x, y, yaw = (round(value + draw.uniform(-PARKED, PARKED), 3) for value in start)
+    return Trip(middle, start, put_down, lanes[0], lanes[1], (x, y, yaw), round(draw.uniform(*CARRIED), 1))
 
 
 @functools.lru_cache(maxsize=64)
@@ -74,12 +74,12 @@ def hall(seed: int) -> World:
     bounds = cx - HALF_LENGTH, cy - HALF_WIDTH, cx + HALF_LENGTH, cy + HALF_WIDTH
     lidar = LidarModel(rays=360, noise=0.02, dropouts=0.03, range_max=RANGE)
     empty = walled("hall", seed, bounds, "A long hall that looks the same from both ends.", start=one.start)
-    odometry = tuple(round(draw.uniform(low, high), 2) for low, high in ((-4, 4), (-4, 4), (-3, 3)))
+    x, y, yaw = (round(draw.uniform(low, high), 2) for low, high in ((-4, 4), (-4, 4), (-3, 3)))
     return replace(
         slippery(empty, slip=SLIP, left=draw.choice((0.99, 1.01))), lidar=lidar,
         boxes=tuple(replace(box, x=box.x + cx, y=box.y + cy) for box in boxes),
         circles=tuple(replace(circle, x=circle.x + cx, y=circle.y + cy) for circle in circles),
-        robot=replace(empty.robot, odometry=odometry),
+        robot=replace(empty.robot, odometry=(x, y, yaw)),
     )
 
 

@@ -1,6 +1,7 @@
 """The programs around a robot that doesn't know where it is: a map, where it is parked, and a driver."""
 
 import math
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
@@ -50,7 +51,7 @@ class HallDriver(BlindDriver):
 
     world: ClassVar[World]
     trip: ClassVar[Trip]
-    matched = ScanMatcher.matched
+    matched: ClassVar[Callable[..., Pose2D]] = ScanMatcher.matched
 
     def __init__(self) -> None:
         super().__init__("hall_driver")

@@ -47,7 +47,8 @@ def log_scores(recording: Recording, apart: Seconds = 0.0) -> list[LogScores]:
     apart: a cloud that comes sooner after the last one with a score is left out.
     Raises ValueError for a cloud without particles, or whose weights don't have a positive sum.
     """
-    middle, found = trip(recording.seed).middle, []
+    middle = trip(recording.seed).middle
+    found: list[LogScores] = []
     for row in recording.messages("/particle_cloud"):
         if found and row.stamp - found[-1].stamp < apart:
             continue

@@ -5,15 +5,11 @@ import math
 from grader.checks import Missed, has_no_contacts, publishes, subscribes
 from grader.checks.frames import FULL_TURN, TF, Broadcast, between, broadcasts
 from grader.checks.mistakes import usual_mistake
+from grader.checks.motion import goal_in
 from grader.checks.no_data import no_data
 from grader.companions.map_messages import pose_2d
 from grader.exercise import Exercise
-from grader.exercises.localization.localize.scan_matcher import (
-    composed,
-    matching,
-    relative,
-    slippery_room,
-)
+from grader.exercises.localization.localize.scan_matcher import composed, matching, relative, slippery_room
 from grader.geometry import Pose2D
 from grader.geometry.near import is_near
 from grader.responses import from_course
@@ -31,7 +27,7 @@ ORIGIN = Pose2D(0.0, 0.0, 0.0)
 
 def _done(run: Recording) -> bool:
     """Return whether the robot has been at its goal, or stands long after it could be."""
-    goal, last = run.world.goal, run.path[-1]
+    goal, last = goal_in(run), run.path[-1]
     return run.stamp > 5.0 and math.dist(goal, (last.x, last.y)) < 0.12
 
 
@@ -153,7 +149,7 @@ def reports_the_pose(run: Recording) -> None:
 @localize.check(2, after=corrects_the_odometry)
 def lets_the_robot_arrive(run: Recording) -> None:
     """The driver, which trusts /tf, reaches the goal and touches nothing, though the wheels slip."""
-    goal, last = run.world.goal, run.path[-1]
+    goal, last = goal_in(run), run.path[-1]
     gap = math.dist(goal, (last.x, last.y))
     if not gap < ARRIVED:
         hint = "Look at the replay with its frames: from when on is odom wrong, or too old for the driver?"

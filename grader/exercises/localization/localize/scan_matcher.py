@@ -40,10 +40,10 @@ def slippery_room(seed: int) -> World:
     """Return a room for a robot with bad wheels, whose odometry begins anywhere."""
     draw = random.Random(f"slippery {seed}")
     world = World.generate("room", seed=seed, width=7.0, height=5.0, boxes=3)
-    odometry = tuple(round(draw.uniform(low, high), 2) for low, high in ((-4, 4), (-4, 4), (-3, 3)))
+    x, y, yaw = (round(draw.uniform(low, high), 2) for low, high in ((-4, 4), (-4, 4), (-3, 3)))
     left = draw.choice((0.98, 1.02))
     bad = slippery(world, left=left)
-    return replace(bad, name=f"slippery_room_{seed}", robot=replace(world.robot, odometry=odometry))
+    return replace(bad, name=f"slippery_room_{seed}", robot=replace(world.robot, odometry=(x, y, yaw)))
 
 
 def relative(a: Pose2D, b: Pose2D) -> Pose2D:

@@ -109,7 +109,8 @@ def shapes_at(run: Recording, stamps: list[Seconds], along: float, turn: float) 
     topics = "/initialpose", "/odom", "/range"
     rows = sorted((row for topic in topics for row in run.messages(topic) if row.from_course),
                   key=lambda row: row.stamp)
-    filtered, found = ReferenceFilter(0, along, turn), []
+    filtered = ReferenceFilter(0, along, turn)
+    found: list[Shape] = []
     for row in rows:
         while len(found) < len(stamps) and stamps[len(found)] < row.stamp - 1e-6:
             found.append(filtered.shape)

@@ -37,11 +37,11 @@ def tour_yard(seed: int) -> World:
     draw = random.Random(f"tour {seed}")
     limits = (1.5, 2.0), (-0.5, 0.5), (3.0, 3.1)
     start = tuple(round(draw.uniform(*limit), 2) for limit in limits)
-    odometry = tuple(round(draw.uniform(low, high), 2) for low, high in ((-3, 3), (-3, 3), (-2.5, 2.5)))
+    x, y, yaw = (round(draw.uniform(low, high), 2) for low, high in ((-3, 3), (-3, 3), (-2.5, 2.5)))
     card, bounds = "An empty yard with a beacon.", (-4.0, -4.0, 4.0, 4.0)
     world = walled("tour_yard", seed, bounds, card, start=start)
     silent = replace(world.lidar, silent=((0.0, 1000.0),))  # no node needs scans here
-    return replace(world, robot=replace(world.robot, odometry=odometry), lidar=silent)
+    return replace(world, robot=replace(world.robot, odometry=(x, y, yaw)), lidar=silent)
 
 
 class Tour(BlindDriver):

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from grader.checks import Missed, otherwise, publishes, subscribes
+from grader.checks.motion import world_in
 from grader.companions.map_messages import pose_2d
 from grader.exercise import Exercise, Scenario
 from grader.exercises.localization.weigh.guesses import CLUSTER, Guess, guessing, is_close, visited
@@ -38,7 +39,7 @@ class Weighed(NamedTuple):
     @property
     def top(self) -> Guess:
         """The heaviest guess."""
-        return self.guesses[self.heaviest[0]]
+        return self.guesses[int(self.heaviest[0])]
 
 
 weigh = Exercise("weigh", "Weigh your guesses", scenarios=[
@@ -87,7 +88,7 @@ def _weighed(run: Recording, row: Message) -> Weighed:
     weights = np.array([item.weight for item in cloud.particles])
     if not ((weights >= 0).all() and is_near(float(weights.sum()), 1.0, 0.01)):
         raise Missed("weights from 0 to 1 with the sum 1", f"the sum {weights.sum():.3g}", about=(weights,))
-    truth = run.world.start
+    truth = world_in(run).start
     return Weighed(row.stamp, guesses, weights, np.array([is_close(guess, truth) for guess in guesses]))
 
 
@@ -101,7 +102,7 @@ def _are_equal(run: Recording, found: Weighed) -> bool:
 
 
 def _ignores_the_mounting(run: Recording, found: Weighed) -> bool:
-    return is_close(found.top, run.world.lidar.mounted_at(run.world.start))
+    return is_close(found.top, world_in(run).lidar.mounted_at(world_in(run).start))
 
 
 @weigh.check(6, after=weighs_each, hints={

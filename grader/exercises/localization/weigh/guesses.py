@@ -49,14 +49,15 @@ def visited(seed: int) -> tuple[World, World]:
 
 def _shifted(world: World) -> World:
     """Return the world elsewhere on the map: rows taken for columns are wrong then, as they are in life."""
-    moved = {key: tuple(replace(one, x=one.x + ASIDE[0], y=one.y + ASIDE[1]) for one in getattr(world, key))
-             for key in ("boxes", "circles")}
-    walls = tuple(tuple((x + ASIDE[0], y + ASIDE[1]) for x, y in wall) for wall in world.walls)
+    dx, dy = ASIDE
+    boxes = tuple(replace(box, x=box.x + dx, y=box.y + dy) for box in world.boxes)
+    circles = tuple(replace(circle, x=circle.x + dx, y=circle.y + dy) for circle in world.circles)
+    walls = tuple(((a + dx, b + dy), (c + dx, d + dy)) for (a, b), (c, d) in world.walls)
     left, bottom, right, top = world.bounds
-    bounds = left + ASIDE[0], bottom + ASIDE[1], right + ASIDE[0], top + ASIDE[1]
-    x, y, yaw = world.start
-    start = round(x + ASIDE[0], 2), round(y + ASIDE[1], 2), yaw
-    return replace(world, walls=walls, bounds=bounds, start=start, goal=None, **moved)
+    bounds = left + dx, bottom + dy, right + dx, top + dy
+    start = round(world.start[0] + dx, 2), round(world.start[1] + dy, 2), world.start[2]
+    known = replace(world, walls=walls, boxes=boxes, circles=circles)
+    return replace(known, bounds=bounds, start=start, goal=None)
 
 
 def _beside(start: Guess, angle: float, distance: float) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from grader.checks import Missed, cancels, has_no_contacts, series, serves_action, tenths, traveled
-from grader.checks.motion import after_a_touch, is_hopeless, length
+from grader.checks.motion import after_a_touch, goal_in, is_hopeless, length, world_in
 from grader.companions.goals import GoalClient
 from grader.companions.maps import bringup, made_for
 from grader.diagnosis.driving import still_obeyed
@@ -151,7 +151,7 @@ def does_not_dawdle(run: Recording) -> None:
     """The path is at most 40 % longer than the shortest one, and the robot covers 15 cm of it per second."""
     goal = goals_from_course(run)[-1]
     begin, end = goal.at("accepted") or 0.0, end_of(run, goal)
-    least = max(to_go(run.world, run.pose_at(begin)), 0.5)
+    least = max(to_go(world_in(run), run.pose_at(begin)), 0.5)
     way = length(Window(begin, end).rows(run.path))
     if way > RIGHT * least:
         credit = tenths(0.8 * (1 - (way / least - RIGHT) / (POOR - RIGHT)))
@@ -183,11 +183,12 @@ def reports_the_distance_left(run: Recording) -> None:
 def obeys_a_cancel(run: Recording) -> None:
     """A goal that the client cancels ends as canceled within 1 s, and the robot stops."""
     first, last = goals_from_course(run)[0], goals_from_course(run)[-1]
-    if first.at(CANCEL_REQUESTED) is None:
+    requested = first.at(CANCEL_REQUESTED)
+    if requested is None:
         saw = f"a goal that is {last.status or 'not answered'}"
         hint = "First the goal has to be accepted and executed for a while."
         raise Missed("a goal in progress that can be canceled", saw, hint)
-    ended = _canceled(run, first)
+    ended = _canceled(run, first, requested)
     later = Window(ended + 0.5, ended + 1.5).rows(run.path)
     moved = math.dist(later[0][1:3], later[-1][1:3]) if later else 0.0
     silence = still_obeyed(run, ended + 1.5)
@@ -197,28 +198,28 @@ def obeys_a_cancel(run: Recording) -> None:
         raise Missed("the robot standing still after the cancel", saw, hint, unsafe=True)
 
 
-def _canceled(run: Recording, goal: Goal) -> Seconds:
+def _canceled(run: Recording, goal: Goal, requested: Seconds) -> Seconds:
     """Return when the goal was canceled, within 1 s of the client's request."""
-    requested = goal.at(CANCEL_REQUESTED)
     expected = f"the goal canceled within 1 s of the request at {requested:.3g} s"
     if goal.ended is not None and goal.ended < requested:
         hint = "The goal ended before the client changed its mind: end it only when the robot is there."
         raise Missed(expected, f"{goal.status} at {goal.ended:.3g} s already", hint)
     try:
-        return cancels(run, ACTION, within=1.0, where=lambda other: other.id == goal.id)[0].ended
+        canceled = cancels(run, ACTION, within=1.0, where=lambda other: other.id == goal.id)[0]
+        return end_of(run, canceled)
     except Missed as missed:
         path = Window(requested + 1.5, requested + 2.5).rows(run.path)
         raise Missed(expected, missed.saw, missed.hint, unsafe=length(path) > 0.02) from None
 
 
 def _succeeds(run: Recording) -> None:
-    goal, world = goals_from_course(run)[-1], run.world
+    goal, world, there = goals_from_course(run)[-1], world_in(run), goal_in(run)
     end = run.pose_at(end_of(run, goal))
-    left = math.dist(world.goal, (end.x, end.y))
+    left = math.dist(there, (end.x, end.y))
     state = goal.status or "not answered"
     if left > NEAR:
         came = 1 - to_go(world, end) / to_go(world, run.path[0])
-        expected = f"the robot within {NEAR} m of ({world.goal[0]:.2f}, {world.goal[1]:.2f}) m"
+        expected = f"the robot within {NEAR} m of ({there[0]:.2f}, {there[1]:.2f}) m"
         saw = f"({end.x:.2f}, {end.y:.2f}) m, {left:.2f} m away; the goal is {state}"
         raise Missed(expected, saw, credit=tenths(0.6 * came), picture="path", about=(goal, left))
     if goal.status != "succeeded":

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from grader.checks.check import Missed
+from grader.checks.motion import goal_in, world_in
 from grader.geometry.ground import ground, shortest
 from grader.geometry.near import is_near
 from grader.geometry.occupancy import cells_of
@@ -61,8 +62,8 @@ def _wrong_distance(run: Recording, goal: Goal) -> Fault | None:
     mapped = np.array_equal(cells == 100, ground(run.world).occupied)
     for row in _before_a_touch(run, goal):
         distance, pose = row.message.distance_remaining, run.pose_at(row.stamp)
-        shortest_way = to_go(run.world, pose)
-        least = math.dist(run.world.goal, (pose.x, pose.y))
+        shortest_way = to_go(world_in(run), pose)
+        least = math.dist(goal_in(run), (pose.x, pose.y))
         if mapped:  # else the plan may lead through what no map shows
             least = max(least, shortest_way / 1.6)  # counting cells, diagonal ones too, gives 1 / 1.41 of it
         least, most = max(least - 0.5, 0.0), 1.5 * shortest_way + 0.5

@@ -144,8 +144,9 @@ def _mistake(wrong: list[View]) -> str:
 def _other_width(wrong: list[View]) -> int:
     """The one width with which all wrong bearings would be right; 0 if there is none."""
     found = [(view, value) for view in wrong for value in view.values if view.true is not None]
-    widths = [2 * column_of_red(pixels_of(view.image.value)) / (1 - math.tan(value)) for view, value in found
-              if math.isfinite(value) and not is_near(math.tan(value), 1.0, 1e-6)]
+    widths = [2 * column / (1 - math.tan(value)) for view, value in found
+              if math.isfinite(value) and not is_near(math.tan(value), 1.0, 1e-6)
+              and (column := column_of_red(pixels_of(view.image.value)))]
     return round(widths[0]) if len(widths) > 1 and 0 < max(widths) < 1.02 * min(widths) else 0
 
 

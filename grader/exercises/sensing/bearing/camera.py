@@ -81,7 +81,7 @@ def picture(place: float | None, width: int, draw: random.Random, numbers: np.ra
     for _ in range(draw.randint(MOST_FALSE - 2, MOST_FALSE)):
         pixels[draw.randrange(HEIGHT), draw.randrange(width)] = RED
     noise = numbers.integers(-NOISE, NOISE, pixels.shape, endpoint=True)
-    return np.clip(pixels + noise, 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(pixels + noise, 0, 255).astype(np.uint8))
 
 
 def _draw_post(pixels: np.ndarray, place: float, color: Sequence[int], draw: random.Random) -> None:

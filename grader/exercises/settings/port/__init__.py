@@ -7,7 +7,7 @@ from functools import partial
 from grader.checks import Missed, answers, course_calls, named, otherwise, publishes, subscribes
 from grader.checks.ends import declared
 from grader.checks.fields import plain, stamp_words
-from grader.checks.services import is_success
+from grader.checks.services import is_success, sent_at
 from grader.companions.parameter_start import started_with
 from grader.exercise import Exercise, Scenario
 from grader.exercises.settings.port.engine_sensor import VOLTS, engine, engine_and_gain_setter
@@ -27,7 +27,7 @@ NEAR, SETTLED = 1e-3, 0.45  # degrees; s until a new gain or the first volts sho
 port = Exercise("port", "A program from ROS 1", scenarios=[
     Scenario(seconds=10, seed=1, companions=engine, name="default"),
     Scenario(seconds=7, seed=2, companions=engine_and_gain_setter, name="gain",
-             prepare=partial(started_with, "gain", STARTED))], variants=Variants(
+             prepare=partial(started_with, "gain", STARTED))], variants=Variants(  # type: ignore[arg-type]  # the program comes first
     {"gain": (25, 20, 24), "hot": (80, 63, 75)},
     {"rate": (5, 4), "period": (0.2, 0.25), "often": ("five", "four")},
     {"frame": ("engine", "motor", "cylinder")},
@@ -124,13 +124,13 @@ def follows_the_gain(run: Recording) -> None:
     gain = plain(call.request)["gain"]
     rows = publishes(run, TEMPERATURE, TYPE)
     for row in rows:
-        if row.stamp < call.requested:
+        if row.stamp < sent_at(call):
             _require_product(run, row, STARTED, STARTED)
     if not is_success(call):
         expected = f"the gain can be set to {gain:g} at {call.requested:.3g} s"
         hint = f"Declare `gain` with the default {port.drawn.gain}.0, and don't refuse any other value."
         raise Missed(expected, "no answer" if call.answered is None else "it is refused", hint)
-    for row in publishes(run.during(call.requested + SETTLED), TEMPERATURE, TYPE):
+    for row in publishes(run.during(sent_at(call) + SETTLED), TEMPERATURE, TYPE):
         _require_product(run, row, gain, gain)
 
 

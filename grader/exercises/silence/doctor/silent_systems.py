@@ -136,7 +136,7 @@ class ConfigurableDisplay(Node):
         if name in POLICIES:
             return value in POLICIES[name]
         if name == "deadline":
-            return 0.0 <= value < LONGEST
+            return bool(0.0 <= value < LONGEST)
         if name != "topic":
             return True
         try:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
 TOPICS = "/scan", "/map", "/battery", "/speech", "/goal", "/arm/state", "/camera/image", "/tool"
@@ -50,7 +51,8 @@ class Speaker(Node):
 
     def __init__(self, member: SpeakerPlan) -> None:
         super().__init__(member.name, namespace=member.space or None)
-        self.member, self.outlets = member, []
+        self.member = member
+        self.outlets: list[Publisher] = []
         for topic in member.subscribes:
             self.create_subscription(String, topic, lambda msg: None, 10)
         self.begin = self.create_timer(member.begin, self.join)

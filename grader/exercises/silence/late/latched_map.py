@@ -6,6 +6,7 @@ import random
 from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.subscription import Subscription
 from std_msgs.msg import Int32
 
 from grader.companions.qos import LATCHED
@@ -43,7 +44,7 @@ class LateSubscriber(Node):
     def __init__(self) -> None:
         super().__init__("visitor")
         self.publisher = self.create_publisher(Int32, "/receipt", 10)
-        self.subscription = None
+        self.subscription: Subscription | None = None
         self.ticks = 0
         self.create_timer(1.0, self.subscribe_or_leave)
 

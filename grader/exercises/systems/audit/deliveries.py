@@ -70,7 +70,8 @@ class SystemInputs:
     def play(self, script: PlayScript, delays: Delays) -> None:
         """Begin a play: deliver what is in a script, with delays."""
         self.script, self.delays = script, delays
-        self.numbers, self.last = dict.fromkeys(SYSTEMS[self.name].delayed, 0), {}
+        self.numbers = dict.fromkeys(SYSTEMS[self.name].delayed, 0)
+        self.last: dict[str, int] = {}
         for delivery in sorted(script.deliveries, key=lambda each: each.tick):
             self.deliver(delivery.topic, delivery.message, self.agenda.now + delivery.tick)
 
@@ -129,7 +130,8 @@ class Trials(Deliveries):
 
     def __init__(self, seed: int) -> None:
         super().__init__()
-        self.seed, self.answers = seed, {}
+        self.seed = seed
+        self.answers: dict[str, Delays] = {}
         self.own = {name: SystemInputs(self, self.agenda, name, "") for name in SYSTEMS}
         self.given = {name: SystemInputs(self, self.agenda, name, f"{GIVEN}/") for name in SYSTEMS}
         self.question = self.create_publisher(Int32, QUESTION, LATCHED)
@@ -147,9 +149,8 @@ class Trials(Deliveries):
     def begin(self, number: int) -> None:
         """Begin a play of all systems."""
         for name in SYSTEMS:
-            script, delays = script_of(name, number, self.seed), draw_delays(name, number, self.seed)
-            if number == 0:
-                delays = self.answers.get(name, {})
+            script, drawn = script_of(name, number, self.seed), draw_delays(name, number, self.seed)
+            delays = drawn if number else self.answers.get(name, {})
             self.own[name].play(script, delays)
             if number == 0 and name in self.answers:
                 self.given[name].play(script, delays)

@@ -94,6 +94,4 @@ def draw_delays(name: str, number: int, seed: int) -> dict[str, list[int]]:
     if number % 2 and name in LATE:
         late, least = LATE[name]
         return {late: [draw.randrange(least, LONGEST + 1, STEP)]}
-    return {
-        each: [draw.randrange(0, LONGEST + 1, STEP) for _ in range(6)] for each in SYSTEMS[name].delayed
-    }
+    return {each: [draw.randrange(0, LONGEST + 1, STEP) for _ in range(6)] for each in SYSTEMS[name].delayed}

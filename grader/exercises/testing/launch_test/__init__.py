@@ -14,7 +14,7 @@ ALL = len(RIGHT) + len(WRONG)
 HANGS = "A wrong launch file may start nothing that publishes: give each loop that waits a timeout."
 
 launch_test = Exercise("launch_test", "A test of a launch file", package="speed_guard", scenarios=[
-    Scenario(seconds=600, seed=1, prepare=partial(run_tests, "speed_guard", FILE, True),
+    Scenario(seconds=600, seed=1, prepare=partial(run_tests, "speed_guard", FILE, True),  # type: ignore[arg-type]  # the workspace comes first
              companions=companions, until=lambda run: len(run.messages(VERDICTS)) > ALL),
 ], may_end=True)
 

@@ -3,11 +3,7 @@
 from functools import partial
 
 from grader.checks import Missed, hinting, otherwise, publishes
-from grader.checks.packages import (
-    builds_without_warnings,
-    imports_by_its_name,
-    installs_only_its_name,
-)
+from grader.checks.packages import builds_without_warnings, imports_by_its_name, installs_only_its_name
 from grader.companions.package_sensors import TICKS, WheelEncoder
 from grader.exercise import Exercise, Scenario
 from grader.exercises.testing.odometer.odometer_package import AROUND, PER_TURN, rearranged

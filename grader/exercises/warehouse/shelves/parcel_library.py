@@ -39,7 +39,7 @@ class _Connection:
         self._unsent.append(label)
         if self._spinning is None or self._spinning.done():
             self._spinning = asyncio.create_task(self._spin())
-        return await shelf
+        return str(await shelf)
 
     async def _spin(self) -> None:
         while self._shelves and self._context.ok():

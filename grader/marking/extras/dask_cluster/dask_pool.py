@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from grader.marking.errors import DaskPoolError, ResultError
 from grader.marking.extras.dask_cluster.on_worker import MARKED, UNFIT, RunSettings, mark_task
@@ -44,7 +44,7 @@ class _PendingTask:
     why: str = ""
     failed_at: set[str] = field(default_factory=set)
     address: str = ""
-    future: Future | None = None
+    future: Any = None  # the Future of Dask, once it runs
     lost: bool = False
 
     def fail(self, why: str) -> None:
@@ -71,7 +71,7 @@ class DaskPool:
         self._address, self._wait_s = address, wait_s
         self._how = RunSettings(uuid.uuid4().hex, unsafe, secret, time_limits, limits)
         self._running: dict[str, _PendingTask] = {}  # by their futures' keys
-        self._finished: SimpleQueue[Future] = SimpleQueue()
+        self._finished: SimpleQueue[Future[Any]] = SimpleQueue()
         self._seen = 0.0  # when a worker was there
         self._client = _connect(address, wait_s)
         self._workers = Workers(self._client)
@@ -98,9 +98,9 @@ class DaskPool:
         """Stop the tasks on the workers, and all processes there."""
         with contextlib.suppress(Exception):  # the scheduler may have gone
             if self._client.status == "running":
-                self._client.cancel([job.future for job in self._running.values()])
+                self._client.cancel([job.future for job in self._running.values()])  # type: ignore[no-untyped-call]
                 self._workers.leave(self._how.run)
-        self._client.close()
+        self._client.close()  # type: ignore[no-untyped-call]
 
     def __enter__(self) -> DaskPool:
         return self
@@ -130,11 +130,10 @@ class DaskPool:
         busy = {job.address for job in self._running.values()}
         for address in sorted(present - busy):
             fitting = (job for job in waiting if address not in job.failed_at or job.failed_at >= present)
-            job = next(fitting, None)
-            if job:
-                waiting.remove(job)
+            if next_job := next(fitting, None):
+                waiting.remove(next_job)
                 waiting.extend(itertools.islice(fresh, 1))
-                self._start(job, address)
+                self._start(next_job, address)
         if present or self._running:
             self._seen = monotonic()
 

@@ -68,10 +68,11 @@ class WorkerPool:
             self.close()
             self._pool = Pool(1, how.unsafe, how.secret, how.time_limits, how.limits)
             self._run = how.run
-        if how.run in self._over:  # `leave` was called while the pool was being opened
+        pool = self._pool
+        if pool is None or how.run in self._over:  # `leave` was called while the pool was being opened
             self.close()
             raise RuntimeError("the run is over")
-        return self._pool
+        return pool
 
 
 _pool_here = WorkerPool()

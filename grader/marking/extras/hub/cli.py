@@ -7,12 +7,7 @@ from pathlib import Path
 from grader.marking.errors import CourseError, MarkingError
 from grader.marking.extras.hub import accounts, leftovers, machine
 from grader.marking.extras.hub.hub_installation import copy_course, install
-from grader.marking.extras.hub.hub_settings import (
-    FILE,
-    HubSettings,
-    read_settings,
-    write_template,
-)
+from grader.marking.extras.hub.hub_settings import FILE, HubSettings, read_settings, write_template
 from grader.marking.extras.hub.shared_folders import make_folders
 
 DESCRIPTION = """Start a JupyterHub for a class. The first time this writes class/hub.toml: enter the names of

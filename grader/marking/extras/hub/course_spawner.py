@@ -12,14 +12,16 @@ from grader.marking.extras.hub.hub_settings import HubSettings
 from grader.marking.extras.hub.server_environment import server_environment
 
 
-class CourseSpawner(LocalProcessSpawner):
+class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]
     """One installation for all; a user's own files are in the home."""
 
     settings: HubSettings  # assigned in jupyterhub_config.py
+    pid: int  # JupyterHub's trait
 
     def get_env(self) -> dict[str, str]:
         """The environment of the server: JupyterHub's, and where the course is."""
-        return super().get_env() | server_environment(self.settings, self.user.name)
+        usual: dict[str, str] = super().get_env()
+        return usual | server_environment(self.settings, self.user.name)
 
     def load_state(self, state: dict[str, Any]) -> None:
         """Find a server that an earlier hub started, unless its number is another user's process by now."""

@@ -18,7 +18,7 @@ class Inboxes(Configurable):
     folder = Unicode("", help="The folder with one folder for each student.").tag(config=True)
 
 
-class ReleaseAssignment(default.ExchangeReleaseAssignment):
+class ReleaseAssignment(default.ExchangeReleaseAssignment):  # type: ignore[misc]
     """Releases an assignment. nbgrader would let everyone write into the exchange first."""
 
     def ensure_root(self) -> None:
@@ -26,7 +26,7 @@ class ReleaseAssignment(default.ExchangeReleaseAssignment):
         default.Exchange.ensure_root(self)
 
 
-class CollectFromInboxes(default.ExchangeCollect):
+class CollectFromInboxes(default.ExchangeCollect):  # type: ignore[misc]
     """Collects submissions as nbgrader does, after they were taken out of the inboxes."""
 
     def init_src(self) -> None:
@@ -38,7 +38,7 @@ class CollectFromInboxes(default.ExchangeCollect):
         super().init_src()
 
 
-class ReleaseFeedbackToInboxes(default.ExchangeReleaseFeedback):
+class ReleaseFeedbackToInboxes(default.ExchangeReleaseFeedback):  # type: ignore[misc]
     """Releases each student's feedback into the student's inbox, which no other student enters."""
 
     def copy_files(self) -> None:

@@ -58,7 +58,7 @@ def copy_course(course: Path, settings: HubSettings, name: str) -> None:
         python = str(settings.installation / ".venv" / "bin" / "python")
         done = subprocess.run(
             [python, "-m", "grader.marking.release.make_exercises"],
-            **{"cwd": target, "user": grader.pw_uid, "group": grader.pw_gid, "extra_groups": []},
+            cwd=target, user=grader.pw_uid, group=grader.pw_gid, extra_groups=[],
             env={"PATH": os.defpath, "HOME": str(settings.home(name)), "PYTHONPATH": str(target)},
         )
         if done.returncode:

@@ -15,7 +15,7 @@ _submit = AssignmentList.submit_assignment
 
 def submit(assignments: AssignmentList, course: str, assignment: str) -> dict[str, Any]:
     """Submit as nbgrader does; of an error keep its last line, which says what is wrong."""
-    answer = _submit(assignments, course, assignment)
+    answer: dict[str, Any] = _submit(assignments, course, assignment)
     if not answer["success"]:
         if any(number in answer["value"] for number in FULL):
             return answer | {"value": NO_SPACE.format(assignment)}

@@ -15,6 +15,7 @@ from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.mark_submission import find_exercises, flag_suspicious_code, rebuild_notebooks
 from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
+from grader.marking.judge.plain_tests import PlainTest
 from grader.marking.judge.student_session import StudentSession
 from grader.programs import ProgramSource
 from grader.score import Score
@@ -41,7 +42,7 @@ class ContestJudge:
     games: the results so far. problem: why the programs could not be run, or "".
     """
 
-    def __init__(self, exercise: Exercise, contest: Contest) -> None:
+    def __init__(self, exercise: Exercise | PlainTest, contest: Contest) -> None:
         self.name = exercise.name
         self.games: list[Game] = []
         self.problem = ""

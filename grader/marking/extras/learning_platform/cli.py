@@ -4,6 +4,7 @@ import stat
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TextIO
 
 from grader.course_files.local_time import local_zone
 from grader.marking.atomic_file import write_atomically
@@ -117,7 +118,7 @@ def _sheet(options: argparse.Namespace, course: Course, assignment: str) -> Grad
     return None
 
 
-def _list(sentences: Iterable[str], stream: object) -> int:
+def _list(sentences: Iterable[str], stream: TextIO) -> int:
     """Print the sentences; return 1 if there are any."""
     lines = [printable(sentence) for sentence in sentences]
     for line in lines:

@@ -48,9 +48,10 @@ class GradeSheet:
 def read_moodle(file: CsvFile, column: str = "", decimal: str = "") -> GradeSheet:
     """Read a grading worksheet of Moodle, in any language. column: the title of the grades."""
     records = range(1, len(file.records))
-    numbers = {at: re.fullmatch(r"(\D*)(\d+)", file.values(at)[0]) for at in records}
-    if not records or None in numbers.values() or len({match[1] for match in numbers.values()}) > 1:
-        bad = next((file.values(at)[0] for at in records if not numbers[at]), "different words")
+    found = ((at, re.fullmatch(r"(\D*)(\d+)", file.values(at)[0])) for at in records)
+    numbers = {at: match for at, match in found if match}
+    if not records or len(numbers) < len(records) or len({match[1] for match in numbers.values()}) > 1:
+        bad = next((file.values(at)[0] for at in records if at not in numbers), "different words")
         saw = f"saw {bad!r}" if records else "saw no rows"
         expected = "expected a worksheet with `Participant 123` or the like in its first column"
         raise file.problem(f"{expected}, {saw}: download it with View all submissions, Grading worksheet")

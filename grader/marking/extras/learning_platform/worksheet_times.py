@@ -72,15 +72,18 @@ def _read_all(cells: Collection[str], months: Names, weekdays: Names) -> dict[st
 def _read(cell: str, months: Names, weekdays: Names) -> datetime | None:
     """A time in a language, if its weekday is right."""
     clock = TIME.search(cell)
+    if clock is None:
+        return None
     date = TIME.sub(" ", cell).casefold()
     numeric = NUMERIC.search(date)
     if numeric:
         year, month, day = map(int, numeric.groups())
     else:
         named, days = months.find(date), DAY.findall(YEAR.sub(" ", months.pattern.sub(" ", date)))
-        if len(named) != 1 or len(days) != 1:
+        years = YEAR.findall(date)
+        if len(named) != 1 or len(days) != 1 or not years:
             return None
-        year, month, day = int(YEAR.search(date)[0]), named.pop(), int(days[0])
+        year, month, day = int(years[0]), named.pop(), int(days[0])
     half = HALF.search(cell)
     hour = int(clock[1]) % 12 + 12 * (half[1] in "pP") if half else int(clock[1])
     try:

@@ -21,9 +21,7 @@ RELEASE = "release/release.py"
 Rows = list[tuple[str, str, bool]]  # lines side by side, and whether they are equal
 
 
-def write_pages(
-    found: ClassLikeness, runs: Sequence[EqualRuns], assignment: str, folder: Path
-) -> Path:
+def write_pages(found: ClassLikeness, runs: Sequence[EqualRuns], assignment: str, folder: Path) -> Path:
     """Write an overview and a page for each pair; returns the overview. Raises OSError."""
     links = {f"pair-{number:02}.html": pair for number, pair in enumerate(found.pairs, 1)}
     for old in folder.glob("pair-*.html"):

@@ -38,8 +38,9 @@ def _for_containers(entry: str) -> str:
     if pinned.marker is None:
         return entry
     holds = {pinned.marker.evaluate(MACHINE | {"python_full_version": f"{each}.9"}) for each in PYTHONS}
-    bare = f"{first.partition(' ; ')[0]} \\"
-    return {(True,): "\n".join([bare, *hashes]), (False,): ""}.get((*holds,), entry)
+    if len(holds) > 1:
+        return entry
+    return "\n".join([f"{first.partition(' ; ')[0]} \\", *hashes]) if holds.pop() else ""
 
 
 def needed_packages(course: Path) -> set[str]:

@@ -23,8 +23,9 @@ def as_page(receipts: Sequence[MarkReceipt], signed: Sequence[str]) -> str:
 
 def signed_in(page: str) -> list[str]:
     """The signed receipts in a page. Raises NotConfirmed."""
+    found = SIGNED.search(page)
     try:
-        return [json.dumps(each) for each in json.loads(SIGNED.search(page)[1])]
+        return [json.dumps(each) for each in json.loads(found[1] if found else "")]
     except (TypeError, ValueError, RecursionError):
         raise NotConfirmed("this page has no receipts") from None
 

@@ -73,8 +73,8 @@ def sealed(receipt: MarkReceipt, key: str, notebooks: Sequence[NotebookNode], re
     seeds = {name: [seed for _, seed in each.runs(own)] for name, each in _exercises(notebooks)}
     numbers = drawn_numbers(notebooks, own)
     seeds |= {revealed_name(name): [number] for name, number in numbers.items()}
-    opened = {"nonce": nonce, "seeds": seeds} if reveal else {}
-    return replace(receipt, seal=seal_of(nonce, seeds), **opened)
+    receipt = replace(receipt, seal=seal_of(nonce, seeds))
+    return replace(receipt, nonce=nonce, seeds=seeds) if reveal else receipt
 
 
 def _receipt(mark: GradebookMark, entry: JournalEntry, issuer: str) -> MarkReceipt:

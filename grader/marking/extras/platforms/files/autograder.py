@@ -15,8 +15,8 @@ from pathlib import Path
 HERE = Path(os.environ.get("CLASSROOM50_BUNDLE_DIR") or Path(__file__).resolve().parent)
 PLACE = Path("/opt/ros2-course")
 RUN = "grader.marking.extras.platforms.run"
-STAMPS = ("CLASSROOM", "ASSIGNMENT", "ASSIGNMENT_TYPE", "USERNAME", "OWNER", "SUBMISSION_TAG", "COMMIT_URL")
-STAMPS += ("RELEASE_URL", "REVIEW_URL")
+STAMPS: tuple[str, ...] = ("CLASSROOM", "ASSIGNMENT", "ASSIGNMENT_TYPE", "USERNAME", "OWNER")
+STAMPS += ("SUBMISSION_TAG", "COMMIT_URL", "RELEASE_URL", "REVIEW_URL")
 WRITTEN = ("result.json", "release-body.md")
 
 
