@@ -107,6 +107,7 @@ def shown(name: str, score: Score) -> str:
     for miss in misses(score):
         lines.append(f"- {miss.sentence}")
         lines += [f"  Expected: {miss.expected}", f"  Saw: {miss.saw}", f"  Hint: {miss.hint}".rstrip()]
+    lines += [f"- A mistake in the course: {verdict.alarm}" for verdict in score.broken]
     return "\n".join(lines)
 
 
