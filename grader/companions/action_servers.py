@@ -43,7 +43,7 @@ class LateFibonacci(PausableNode):
             self.server = ActionServer(self, Fibonacci, "/fibonacci", self.execute,
                                        goal_callback=lambda goal: self.answer)
         except ValueError:
-            self.get_logger().error("Another node uses /fibonacci with another type.")  # type: ignore[no-untyped-call]
+            self.get_logger().error("Another node uses /fibonacci with another type.")
 
     async def execute(self, handle: ServerGoalHandle) -> Fibonacci.Result:
         """Publish the sequence number by number."""

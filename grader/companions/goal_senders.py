@@ -60,7 +60,7 @@ class ActionGoalSender(Node):
 
         def cancel() -> None:
             timer.cancel()
-            self.get_logger().info(f"{words(planned.goal)}: please cancel it")  # type: ignore[no-untyped-call]
+            self.get_logger().info(f"{words(planned.goal)}: please cancel it")
             handle.cancel_goal_async()
 
         timer = self.create_timer(patience, cancel)
@@ -72,7 +72,7 @@ class ActionGoalSender(Node):
 
     def finish(self, planned: PlannedGoal, how: str) -> None:
         """Log how a goal ended, and be ready for the next one."""
-        self.get_logger().info(f"{words(planned.goal)}: {how}")  # type: ignore[no-untyped-call]
+        self.get_logger().info(f"{words(planned.goal)}: {how}")
         self.idle = 0.0
 
 

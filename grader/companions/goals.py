@@ -76,13 +76,13 @@ class GoalClient(Node):
         feedback = message.feedback
         if feedback.navigation_time.sec >= self.reported + 5:
             self.reported = feedback.navigation_time.sec
-            self.get_logger().info(f"{feedback.distance_remaining:.1f} m left after {self.reported} s")  # type: ignore[no-untyped-call]
+            self.get_logger().info(f"{feedback.distance_remaining:.1f} m left after {self.reported} s")
 
     def on_response(self, future: Any) -> None:
         """Wait for the result, and for the time to cancel."""
         self.goal_handle = future.result()
         if not self.goal_handle.accepted:
-            self.get_logger().warning("The goal was rejected.")  # type: ignore[no-untyped-call]
+            self.get_logger().warning("The goal was rejected.")
             return
         self.goal_handle.get_result_async().add_done_callback(self.on_result)
         if self.patience is not None:
@@ -101,4 +101,4 @@ class GoalClient(Node):
         endings = {GoalStatus.STATUS_SUCCEEDED: "succeeded", GoalStatus.STATUS_CANCELED: "was canceled"}
         response = future.result()
         message = getattr(response.result, "error_msg", "")
-        self.get_logger().info(f"The goal {endings.get(response.status, 'was aborted')}. {message}".strip())  # type: ignore[no-untyped-call]
+        self.get_logger().info(f"The goal {endings.get(response.status, 'was aborted')}. {message}".strip())

@@ -26,10 +26,10 @@ class ServiceCaller(Node):
         fields = words(plain(request))
         request_text = f"{client.service_name} ({fields})" if fields else client.service_name
         if not client.service_is_ready():
-            self.get_logger().info(f"{request_text}: no node offers this service")  # type: ignore[no-untyped-call]
+            self.get_logger().info(f"{request_text}: no node offers this service")
         future = client.call_async(request)
         future.add_done_callback(
-            lambda future: self.get_logger().info(f"{request_text} -> {words(plain(future.result()))}")  # type: ignore[no-untyped-call]
+            lambda future: self.get_logger().info(f"{request_text} -> {words(plain(future.result()))}")
         )
 
 

@@ -28,7 +28,7 @@ class Door(Node):
         try:
             self.create_service(Trigger, "/door/open", self.answer)
         except RuntimeError:  # RCLError, if the student's client is of another type
-            self.get_logger().info("/door/open is used with another type")  # type: ignore[no-untyped-call]
+            self.get_logger().info("/door/open is used with another type")
 
     def answer(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Refuse as long as there is a refusal left."""

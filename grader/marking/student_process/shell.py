@@ -96,7 +96,7 @@ class Shell(InteractiveShell):
     async def execute(self, source: str) -> None:
         """Run one cell; its outputs, errors too, are sent."""
         try:
-            code, problem = self.transform_cell(source), None  # type: ignore[no-untyped-call]
+            code, problem = self.transform_cell(source), None
         except Exception:
             code, problem = source, sys.exc_info()
         await self.run_cell_async(
@@ -115,7 +115,7 @@ def start_shell(sender: OutputSender) -> Shell:
     sys.stdout, sys.stderr = Stream(sender, "stdout", 1), Stream(sender, "stderr", 2)
     warnings.filterwarnings("ignore", "To exit: use")  # IPython's, for sys.exit(); it shows a path
     activate_matplotlib(INLINE)
-    configure_inline_support(made, INLINE)  # type: ignore[no-untyped-call]
+    configure_inline_support(made, INLINE)
     return made
 
 

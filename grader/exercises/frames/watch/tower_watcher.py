@@ -32,7 +32,7 @@ class Watcher(Node):
         try:
             found = self.buffer.lookup_transform("tower/base_link", target, Time())
         except TransformException as error:
-            self.get_logger().warning(f"{WAITING}: {error}", throttle_duration_sec=1.0)  # type: ignore[no-untyped-call]
+            self.get_logger().warning(f"{WAITING}: {error}", throttle_duration_sec=1.0)
         else:
             if self.get_clock().now() - Time.from_msg(found.header.stamp) < Duration(seconds=0.5):
                 place = found.transform.translation

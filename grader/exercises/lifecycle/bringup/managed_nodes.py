@@ -54,7 +54,7 @@ class ManagedNode(LifecycleNode):
         self.get_clock().sleep_for(Duration(seconds=random.uniform(0.1, 0.3)))
         if self.failures.get(transition, 0) > 0:
             self.failures[transition] -= 1
-            self.get_logger().info(f"{transition} has failed: the device isn't ready")  # type: ignore[no-untyped-call]
+            self.get_logger().info(f"{transition} has failed: the device isn't ready")
             return TransitionCallbackReturn.FAILURE
         return TransitionCallbackReturn.SUCCESS
 

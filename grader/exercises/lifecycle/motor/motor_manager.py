@@ -47,7 +47,7 @@ class MotorManager(ServiceCaller):
 
     def on_response(self, step: str, future: Future) -> None:
         """Log whether the transition has succeeded."""
-        self.get_logger().info(f"{step}: {'done' if future.result().success else 'failed'}")  # type: ignore[no-untyped-call]
+        self.get_logger().info(f"{step}: {'done' if future.result().success else 'failed'}")
 
 
 class StrictManager(MotorManager):

@@ -116,7 +116,7 @@ class PreemptingServer(PausableNode):
     def die(self, away: Seconds) -> None:
         """Leave everything as it is, and start again after a while."""
         self.life += 1
-        self.get_logger().info(DIED)  # type: ignore[no-untyped-call]
+        self.get_logger().info(DIED)
         self.server.destroy()
         if away:
             _once(self, away, self.start)

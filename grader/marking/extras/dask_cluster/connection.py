@@ -18,7 +18,7 @@ class Connection(Client):
         try:
             super().start(**kwargs)  # type: ignore[no-untyped-call]
         except BaseException:
-            self.close()  # type: ignore[no-untyped-call]
+            self.close()
             raise
 
 
@@ -27,4 +27,4 @@ def connect(address: str, wait_s: float) -> Connection:
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # errors are reported by DaskPoolError
     dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 GB"})  # a notebook may have 128 MB
-    return Connection(address, timeout=wait_s, set_as_default=False)  # type: ignore[no-untyped-call]
+    return Connection(address, timeout=wait_s, set_as_default=False)

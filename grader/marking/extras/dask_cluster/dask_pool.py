@@ -98,9 +98,9 @@ class DaskPool:
         """Stop the tasks on the workers, and all processes there."""
         with contextlib.suppress(Exception):  # the scheduler may have gone
             if self._client.status == "running":
-                self._client.cancel([job.future for job in self._running.values()])  # type: ignore[no-untyped-call]
+                self._client.cancel([job.future for job in self._running.values()])
                 self._workers.leave(self._how.run)
-        self._client.close()  # type: ignore[no-untyped-call]
+        self._client.close()
 
     def __enter__(self) -> DaskPool:
         return self

@@ -29,7 +29,7 @@ class Workers:
 
     def present(self) -> set[str]:
         """The addresses of the connected workers that can mark. Raises OSError, RuntimeError."""
-        known = set(self._client.nthreads())  # type: ignore[no-untyped-call]
+        known = set(self._client.nthreads())
         new = known - self._fit - self._unfit
         answers = self._client.run(worker_versions, workers=list(new), on_error="return") if new else {}
         for address, answer in answers.items():
