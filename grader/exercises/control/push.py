@@ -55,7 +55,7 @@ def stands_quietly(run: Recording) -> None:
 
 def _after_pushes(run: Recording) -> list[tuple[float, float]]:
     """From the end of each push to the next one, or to the end of the run."""
-    assert run.world is not None and run.world.machine is not None, "a cart is in a world, and is a machine"
+    assert run.world is not None and run.world.machine is not None
     pushed = sorted(run.world.machine.pushes, key=lambda one: one.begin)
     begins = [one.begin + one.seconds for one in pushed]
     return list(zip(begins, [one.begin for one in pushed[1:]] + [run.ended.stamp], strict=True))

@@ -161,7 +161,7 @@ def _covered(run: Recording) -> tuple[float, float]:
 def _trusts_odometry_alone(run: Recording) -> bool:
     """Return whether it turns to where the path ahead would be, were the robot where its odometry has it."""
     fits_map, fits_odometry = [], []
-    assert run.world is not None, "a maze, with the path"
+    assert run.world is not None  # a maze
     line, (x0, y0, yaw0) = np.array(_line(run)), run.world.start
     from_start = Pose2D(0.0, 0.0, -yaw0)
     for stamp, turn in series(until_a_touch(run), "/cmd_vel", "angular.z"):

@@ -106,7 +106,7 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
 
 
 def _answered_at(call: Call) -> Seconds:
-    assert call.answered is not None, "calls_the_door picked it"
+    assert call.answered is not None  # `calls_the_door` picked it
     return call.answered
 
 

@@ -122,7 +122,7 @@ class GoalCycle(Localized):
 
     def next(self, here: Point) -> Point:
         """Return a place at a shelf that is neither here nor at the other end."""
-        assert self.world.warehouse is not None, "floor_of is a warehouse's"
+        assert self.world.warehouse is not None
         places = [pickup[:2] for pickup in self.world.warehouse.pickups]
         places.sort(key=lambda place: math.dist(here, place))
         return self.draw.choice([place for place in places if not is_near(here, place, 1.0)][:2])
