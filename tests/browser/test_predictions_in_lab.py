@@ -87,12 +87,18 @@ def test_a_slider_shows_its_last_state_the_next_day_and_says_what_to_do(students
     with open_lab(name) as lab:
         lab.run_cell(0)
         lab.cell(0).get_by_text("steps: 3").wait_for()
+        lab.wait("() => !document.querySelector('.jupyter-widgets-disconnected')")
         lab.save()
+        assert "steps: 3" in (students_folder / name).read_text(encoding="utf-8")
     lab.page.goto("about:blank")  # the next day JupyterLab begins anew, and knows of no widget
     with open_lab(name) as lab:
         lab.cell(0).get_by_text("steps: 3").wait_for()
         lab.screenshot("slider-next-day")
         before = "getComputedStyle(document.querySelector('.widget-interact'), '::before').content"
         assert lab.page.evaluate(before) == '"Run this cell again to move the sliders."'
+        lab.save()  # the kernel has no widgets, and those of the notebook stay in it
+    lab.page.goto("about:blank")
+    with open_lab(name) as lab:
+        lab.cell(0).get_by_text("steps: 3").wait_for()
         lab.run_cell(0)
         lab.wait(f"() => {before} === 'none'")

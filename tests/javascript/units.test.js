@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { save } from "../../jupyter/labextensions/ros2-course/static/saving.js";
 import { nextNotebook, tabName } from "../../jupyter/labextensions/ros2-course/static/tabs.js";
+import { shown } from "../../jupyter/labextensions/ros2-course/static/widget_states.js";
 import { load } from "./load.js";
 
 const { checkWorld, list, number, numbers, text, checkGraph } = load(["checks"], ["checkWorld", "list", "number", "numbers", "text", "checkGraph"]);
@@ -257,4 +258,14 @@ test("a camera's topic has the image of the time", () => {
   const messages = { type: "sensor_msgs/msg/Image", count: 0, stamps: [], texts: [], curves: [] };
   const at = (time, name = "/image") => topicAt({ name, messages }, time, [image(1000, "AA"), image(2000, "BB")]).image?.webp;
   assert.deepEqual([at(0.5), at(1.5), at(2), at(2, "/other")], [undefined, "AA", "BB", undefined]);
+});
+
+test("the states of widgets are kept that an output names, and of those that they are made of", () => {
+  const view = (id) => ({ data: { "application/vnd.jupyter.widget-view+json": { model_id: id } } });
+  const states = {
+    box: { state: { children: ["IPY_MODEL_slider", "IPY_MODEL_output"], layout: "IPY_MODEL_lost" } }, slider: { state: { value: 3 } },
+    output: { state: { outputs: [view("inner")] } }, inner: { state: { box: "IPY_MODEL_box" } }, other: { state: {} },
+  };
+  assert.deepEqual(new Set(Object.keys(shown([[view("box")], []], states))), new Set(["box", "slider", "output", "inner"]));
+  assert.deepEqual(shown([[view("unknown")]], states), {});
 });

@@ -10,6 +10,7 @@ import { navigationButtons, renameTab } from "./tabs.js";
 import { startPage } from "./start.js";
 import { showSuccess } from "./success.js";
 import { validateButton } from "./validate.js";
+import { keepWidgetStates } from "./widget_states.js";
 
 const AFTER_RUN_ALL = 9; // index in a notebook's toolbar
 
@@ -48,6 +49,7 @@ export async function plugins(share) {
         buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
         renameTab(panel);
         savePredictions(app, panel);
+        keepWidgetStates(panel);
       };
       tracker.widgetAdded.connect(extend);
       tracker.forEach((panel) => extend(null, panel));
