@@ -37,14 +37,14 @@ class {title}(Node):
     def __init__(self):
         super().__init__("{name}")
 '''
-ANSWER = """class {title}(Node):
+ANSWER = '''class {title}(Node):
     def __init__(self):
         super().__init__("{name}")
         # Missing: what the student writes.
         ### BEGIN SOLUTION
-        ### END SOLUTION"""
-SEE = """recording = run({title}, seconds=10)
-tell(recording)"""
+        ### END SOLUTION'''
+SEE = '''recording = run({title}, seconds=10)
+tell(recording)'''
 HINTS = {"where to look": "...", "what to call": "...", "what to decide": "...?"}
 POINTS = 2  # of the check above
 LAST = "-points"  # the last cell of an exercise

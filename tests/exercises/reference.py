@@ -24,7 +24,9 @@ NOT_DONE = {"play", *DISPLAYS}  # calls that run programs or show their source: 
 
 
 @functools.cache
-def solution(topic: str, name: str, number: int | None = None, copied: int | None = None) -> tuple[Any, ...]:
+def solution(
+    topic: str, name: str, number: int | None = None, copied: int | None = None
+) -> tuple[Any, ...]:
     """What the notebook gives to an exercise, as `grade` takes it.
 
     A workspace is the path of one in a folder that is there until the process ends. number: of the variant;

@@ -17,9 +17,7 @@ FIELD = "Write a field's name with lower-case letters, digits and single undersc
 def test_a_look_prints_the_definitions_as_they_are_read(capsys):
     definitions = crates.changed(crates.RIGHT, crates.LIFT, "bool lifted", "bool Lifted")
     assert launching.see(launching.crates, Workspace(__name__, definitions)).seconds == 0
-    assert (
-        capsys.readouterr().out
-        == f"""\
+    assert capsys.readouterr().out == f"""\
 crate_interfaces/action/Lift
     line 4: bool Lifted
     Hint: {FIELD}
@@ -36,7 +34,6 @@ crate_interfaces/srv/FindCrates
     Crate[] crates
 The types could not be built.
 """
-    )
 
 
 @pytest.mark.soak  # each takes 11 s of computing

@@ -1,5 +1,6 @@
 """Clients that give up in time: right ones, and wrong ones named by their defect."""
 
+
 import rclpy
 from action_msgs.msg import GoalStatus
 from nav2_msgs.action import DriveOnHeading

@@ -293,12 +293,7 @@ class ImpliedSpeed(Doctor):
                 steps.append((math.dist(one[2:4], other[2:4]), one[0]))
         if len(steps) < 20:
             return None
-        return (
-            "two_odometries",
-            statistics.median(step for step, _ in steps),
-            "/odom",
-            steps[len(steps) // 2][1],
-        )
+        return "two_odometries", statistics.median(step for step, _ in steps), "/odom", steps[len(steps) // 2][1]
 
 
 class AlwaysNone(Doctor):

@@ -12,16 +12,8 @@ from grader.exercises.bags.bag_faults.faulty_bags import BUSY, FAULTS, NONE, dra
 @pytest.mark.parametrize(
     ("kind", "off", "hint"),
     [
-        (
-            "two_odometries",
-            0.3,
-            "It is the distance between what the two report at the same moment, in meters.",
-        ),
-        (
-            "lidar_yaw",
-            0.05,
-            "It is the angle by which the lidar is turned further than /tf_static says. Try finer steps.",
-        ),
+        ("two_odometries", 0.3, "It is the distance between what the two report at the same moment, in meters."),
+        ("lidar_yaw", 0.05, "It is the angle by which the lidar is turned further than /tf_static says. Try finer steps."),
     ],
 )
 def test_an_amount_that_is_off_has_a_hint(kind, off, hint):

@@ -84,15 +84,8 @@ class Arrays(Node):
         super().__init__("arrays")
         self.rows, self.frames, self.done = [], set(), False
         self.out = self.create_publisher(DiagnosticStatus, "bag_report", 1)
-        self.create_subscription(
-            LaserScan, "scan", self.note, QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
-        )
-        self.create_subscription(
-            TFMessage,
-            "tf_static",
-            self.mount,
-            QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL),
-        )
+        self.create_subscription(LaserScan, "scan", self.note, QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT))
+        self.create_subscription(TFMessage, "tf_static", self.mount, QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL))
         self.create_timer(0.5, self.look)
 
     def now(self):
@@ -149,9 +142,7 @@ def main():
             "reliability": publisher.qos_profile.reliability.name.lower(),
             "static_transforms": len(static),
         }
-        out.publish(
-            DiagnosticStatus(values=[KeyValue(key=key, value=str(found[key])) for key in sorted(found)])
-        )
+        out.publish(DiagnosticStatus(values=[KeyValue(key=key, value=str(found[key])) for key in sorted(found)]))
 
     out = node.create_publisher(DiagnosticStatus, "/bag_report", 10)
     node.create_subscription(LaserScan, "/scan", on_scan, qos_profile_sensor_data)
@@ -222,21 +213,12 @@ class AllAtOnce(Node):
         super().__init__("all_at_once")
         self.scans, self.transforms = [], {}
         self.publisher = self.create_publisher(DiagnosticStatus, "bag_report", 10)
-        self.create_subscription(
-            LaserScan, "scan", self.scan, QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
-        )
-        self.create_subscription(
-            TFMessage,
-            "tf_static",
-            self.tf,
-            QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL),
-        )
+        self.create_subscription(LaserScan, "scan", self.scan, QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT))
+        self.create_subscription(TFMessage, "tf_static", self.tf, QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL))
         self.create_timer(0.25, self.tick)
 
     def scan(self, msg):
-        self.scans.append(
-            _Scan(Time.from_msg(msg.header.stamp).nanoseconds, self.get_clock().now().nanoseconds)
-        )
+        self.scans.append(_Scan(Time.from_msg(msg.header.stamp).nanoseconds, self.get_clock().now().nanoseconds))
 
     def tf(self, msg):
         self.transforms.update({(each.header.frame_id, each.child_frame_id): each for each in msg.transforms})
@@ -342,9 +324,7 @@ class Collecting(Node):
         next(self.collector)
         self.publisher = self.create_publisher(DiagnosticStatus, "/bag_report", 10)
         self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
-        self.create_subscription(
-            TFMessage, "/tf_static", lambda msg: self.frames.extend(msg.transforms), LATCHED
-        )
+        self.create_subscription(TFMessage, "/tf_static", lambda msg: self.frames.extend(msg.transforms), LATCHED)
         self.create_timer(1.0, self.report)
 
     def collect(self):

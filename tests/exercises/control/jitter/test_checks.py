@@ -22,9 +22,7 @@ TOPICS = {
     "/jitter": (Float64, ARRIVED[1:], JITTER),
     "/late": (Int32, ARRIVED, COUNTS),
 }
-CHECKS = dict(
-    zip(TOPICS, ("measures_the_latency", "measures_the_jitter", "counts_missed_deadlines"), strict=True)
-)
+CHECKS = dict(zip(TOPICS, ("measures_the_latency", "measures_the_jitter", "counts_missed_deadlines"), strict=True))
 
 
 def beat(measured):
@@ -67,11 +65,7 @@ def test_a_number_is_missing_or_too_many(topic):
     hint = "Publish one number for each message: no more, and none left out."
     few, many = f"{len(right) - 2}", f"{len(right) + 1}"
     assert missed(topic, right[:-2]) == (f"{len(right)} messages on {topic}", few, hint)
-    assert missed(topic, [*right, right[-1]], [*stamps, 0.3]) == (
-        f"{len(right)} messages on {topic}",
-        many,
-        hint,
-    )
+    assert missed(topic, [*right, right[-1]], [*stamps, 0.3]) == (f"{len(right)} messages on {topic}", many, hint)
 
 
 @pytest.mark.parametrize("topic", ["/latency", "/jitter"])
@@ -141,21 +135,9 @@ def test_ten_messages_are_enough_and_nine_are_none_of_the_students_fault():
             [int(late > 0.01) for late in LATE],
             "You count each message separately: add them up, self.late += 1.",
         ),
-        (
-            "/late",
-            [n + 1 - count for n, count in enumerate(COUNTS)],
-            "Those arrived in time: count only the late ones.",
-        ),
-        (
-            "/late",
-            [count + 1 for count in COUNTS],
-            "Count those whose latency is above 0.01 s, from the start on.",
-        ),
-        (
-            "/late",
-            [0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 3],
-            "Count those whose latency is above 0.01 s, from the start on.",
-        ),
+        ("/late", [n + 1 - count for n, count in enumerate(COUNTS)], "Those arrived in time: count only the late ones."),
+        ("/late", [count + 1 for count in COUNTS], "Count those whose latency is above 0.01 s, from the start on."),
+        ("/late", [0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 3], "Count those whose latency is above 0.01 s, from the start on."),
     ],
 )
 def test_each_wrong_formula_has_a_hint_of_its_own(topic, values, hint):

@@ -93,14 +93,12 @@ class ByRiccati(Balancer):
         super().__init__()
         cart, pole, length, step = 0.55, 0.13, 0.37, 0.01  # kg, kg, m, s
         drift = 9.81 * pole / cart  # m/s^2 per rad
-        model = np.eye(4) + step * np.array(
-            [
-                [0, 0, 1, 0],
-                [0, 0, 0, 1],
-                [0, drift, 0, 0],
-                [0, (drift + 9.81) / length, 0, 0],
-            ]
-        )
+        model = np.eye(4) + step * np.array([
+            [0, 0, 1, 0],
+            [0, 0, 0, 1],
+            [0, drift, 0, 0],
+            [0, (drift + 9.81) / length, 0, 0],
+        ])
         force = step * np.array([[0], [0], [1 / cart], [1 / (cart * length)]])
         cost = worth = np.diag([60.0, 60.0, 4.0, 1.0])
         for _ in range(3000):
@@ -139,9 +137,7 @@ class Outer(Node):
 
     def tick(self):
         if self.state is not None:
-            self.publisher.publish(
-                Float64(data=max(-0.3, min(0.3, 0.18 * self.state[0] + 0.2 * self.state[1])))
-            )
+            self.publisher.publish(Float64(data=max(-0.3, min(0.3, 0.18 * self.state[0] + 0.2 * self.state[1]))))
 
 
 class Inner(Balancer):

@@ -27,7 +27,4 @@ def test_encoders_publish_what_the_wheels_read_and_stand_still_in_each_drive():
     rolled = np.diff(angles[:STEPS], axis=0) * RADIUS
     assert np.allclose(rolled, drives(5)[0].rolled[1:])
     assert (~rolled.any(axis=1)).sum() >= 7
-    assert {row.topic for row in recording.published if row.from_course} >= {
-        "/joint_states",
-        "/reset_odometry",
-    }
+    assert {row.topic for row in recording.published if row.from_course} >= {"/joint_states", "/reset_odometry"}

@@ -247,11 +247,7 @@ class LeastSquares(Fusion):
     def predict(self, rate, variance, dt):
         if dt > 0.15:
             return self.predict_blindly(dt)
-        self.turned, self.noise, self.time = (
-            self.turned + rate * dt,
-            self.noise + variance * dt**2,
-            self.time + dt,
-        )
+        self.turned, self.noise, self.time = self.turned + rate * dt, self.noise + variance * dt**2, self.time + dt
         return None
 
     def predict_blindly(self, dt):

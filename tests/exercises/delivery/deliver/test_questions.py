@@ -38,9 +38,7 @@ class Driver(Node):
 
 def work(parts, seconds=14, pickup=(0.0, 0.0, 0.0), orders=None, **more) -> Recording:
     """A shift that begins at (0, 0), with an order at 2 s. The desk is at (1.5, 0)."""
-    warehouse = WarehouseModel(
-        (pickup,), DESK, **{"interval": 1000, "patience": 100, "canceled": 0} | (orders or {})
-    )
+    warehouse = WarehouseModel((pickup,), DESK, **{"interval": 1000, "patience": 100, "canceled": 0} | (orders or {}))
     hall = World("hall", "", (-4, -4, 4, 4), (0, 0, 0), warehouse=warehouse, **more)
     return run(functools.partial(Driver, *parts), world=hall, seconds=seconds, seed=1, quiet=True)
 
@@ -217,9 +215,7 @@ def test_a_pause_is_asked_about_that_is_longer_than_loading_takes(seconds, asked
     assert (saw in texts(*delivered, path=path)) == asked
 
 
-@pytest.mark.parametrize(
-    ("speed", "away", "asked"), [(0.09, 1.0, 0), (0.11, 1.0, 1), (0.5, 1.9, 1), (0.5, 2.1, 0)]
-)
+@pytest.mark.parametrize(("speed", "away", "asked"), [(0.09, 1.0, 0), (0.11, 1.0, 1), (0.5, 1.9, 1), (0.5, 2.1, 0)])
 def test_a_person_is_asked_about_whom_it_came_near_while_it_drove(speed, away, asked):
     world = replace(HALL, people=(BESIDE,))
     path = drive((0.0, 0.0, 0.0), (4.0, 4 * speed, 0.0))
@@ -286,16 +282,12 @@ def test_a_charge_is_not_asked_about_where_no_order_waited_for_long(waiting, pic
 @pytest.mark.parametrize(("over", "asked"), [(20.0, False), (22.0, True)])
 def test_an_order_waits_for_no_robot_that_carries_another_most_of_the_time(over, asked):
     second = order(2, waiting=3.0, delivered=over)
-    found = texts(
-        order(1, waiting=1.0, picked_up=2.0, delivered=12.0), second, path=drive(*HERE), seconds=40.0
-    )
+    found = texts(order(1, waiting=1.0, picked_up=2.0, delivered=12.0), second, path=drive(*HERE), seconds=40.0)
     assert (f"From 3.0 to {over:.1f} s it stood while order 2 waited, 0.0 m from shelf_1" in found) == asked
 
 
 def test_a_canceled_order_is_asked_about_only_where_it_was_aboard():
-    assert not any(
-        "canceled" in text for text in texts(order(1, waiting=1.0, canceled=5.0), path=drive(*HERE))
-    )
+    assert not any("canceled" in text for text in texts(order(1, waiting=1.0, canceled=5.0), path=drive(*HERE)))
     aboard = order(1, waiting=1.0, picked_up=2.0, canceled=5.0)
     assert "At 5.0 s order 1 was canceled, and it was aboard" in texts(aboard, path=drive(*HERE))
 
@@ -320,6 +312,4 @@ def test_short_pauses_are_asked_about_where_there_is_little_else():
     assert "From 4.0 to 4.5 s it stood while order 1 waited, 0.5 m from the desk" in texts(
         LEFT, path=path, seconds=8.0
     )
-    assert len(texts(LEFT, path=drive(*HERE), seconds=40.0)) == len(
-        set(texts(LEFT, path=drive(*HERE), seconds=40.0))
-    )
+    assert len(texts(LEFT, path=drive(*HERE), seconds=40.0)) == len(set(texts(LEFT, path=drive(*HERE), seconds=40.0)))

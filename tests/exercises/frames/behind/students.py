@@ -101,9 +101,7 @@ class InTheMap(Follower):
 
     def follow(self):
         try:
-            own, leader = (
-                self.buffer.lookup_transform("map", frame, Time()) for frame in (self.own, self.leader)
-            )
+            own, leader = (self.buffer.lookup_transform("map", frame, Time()) for frame in (self.own, self.leader))
         except TransformException:
             self.publisher.publish(Twist())
             return
@@ -184,9 +182,7 @@ class OwnTree(Follower):
         for one in msg.transforms:
             turn, shift = one.transform.rotation, one.transform.translation
             yaw = 2 * math.atan2(turn.z, turn.w)
-            matrix = np.array(
-                [[math.cos(yaw), -math.sin(yaw), shift.x], [math.sin(yaw), math.cos(yaw), shift.y], [0, 0, 1]]
-            )
+            matrix = np.array([[math.cos(yaw), -math.sin(yaw), shift.x], [math.sin(yaw), math.cos(yaw), shift.y], [0, 0, 1]])
             stamp = math.inf if static else one.header.stamp.sec + one.header.stamp.nanosec * 1e-9
             self.parents[one.child_frame_id] = one.header.frame_id, matrix, stamp
 
@@ -319,9 +315,7 @@ def loop_of_a_main():
     while rclpy.ok() and listener:
         command = Twist()
         try:
-            found = buffer.lookup_transform(
-                "base_link", "leader/base_link", Time(), timeout=Duration(seconds=0.1)
-            )
+            found = buffer.lookup_transform("base_link", "leader/base_link", Time(), timeout=Duration(seconds=0.1))
         except TransformException as error:
             node.get_logger().warning(f"no transform: {error}", throttle_duration_sec=2.0)
         else:
@@ -507,9 +501,7 @@ class WaitsForTheLeader(Follower):
     """A callback that waits 10 s for a transform, which the same thread would have to receive."""
 
     def follow(self):
-        found = self.buffer.lookup_transform(
-            self.own, self.leader, self.get_clock().now(), Duration(seconds=10.0)
-        )
+        found = self.buffer.lookup_transform(self.own, self.leader, self.get_clock().now(), Duration(seconds=10.0))
         self.drive(*self.goal(found))
 
 

@@ -16,7 +16,4 @@ def test_a_program_that_ends_by_an_error_does_not_end_by_itself():
     run.errors.append(CallbackError(16.0, "/joint_publisher", "Seven.send", "IndexError", "out of range", ""))
     with pytest.raises(Missed) as missed:
         ends_by_itself(run)
-    assert (missed.value.expected, missed.value.saw) == (
-        "an end without an error",
-        "IndexError: out of range",
-    )
+    assert (missed.value.expected, missed.value.saw) == ("an end without an error", "IndexError: out of range")

@@ -156,9 +156,5 @@ OtherDependencies = but(CMAKE, "DEPENDENCIES geometry_msgs", "DEPENDENCIES std_m
 NoDependencies = but(CMAKE, "  DEPENDENCIES geometry_msgs\n", "")
 NoEnd = but(CMAKE, "ament_package()\n", "")
 OpenBracket = but(CMAKE, "geometry_msgs\n)", "geometry_msgs\n")
-NothingIsBuilt = but(
-    CMAKE,
-    "project(crate_interfaces)\n",
-    "project(crate_interfaces)\nif(FALSE)\n",
-    {**RIGHT, CMAKE: RIGHT[CMAKE] + "endif()\n"},
-)
+NothingIsBuilt = but(CMAKE, "project(crate_interfaces)\n", "project(crate_interfaces)\nif(FALSE)\n",
+                     {**RIGHT, CMAKE: RIGHT[CMAKE] + "endif()\n"})

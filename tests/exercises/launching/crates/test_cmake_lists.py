@@ -98,9 +98,7 @@ def test_the_first_branch_that_holds_counts_and_what_is_in_it():
 
 @pytest.mark.parametrize("block", ["foreach", "while", "function", "macro"])
 def test_what_is_in_a_loop_or_a_function_does_not_count(block):
-    assert [command.name for command in read_commands(f"{block}(a)\nb()\nend{block}()\nc()".encode())] == [
-        "c"
-    ]
+    assert [command.name for command in read_commands(f"{block}(a)\nb()\nend{block}()\nc()".encode())] == ["c"]
 
 
 def test_what_is_in_a_block_counts():
@@ -110,6 +108,5 @@ def test_what_is_in_a_block_counts():
 @pytest.mark.parametrize("end", ["return()", "message(FATAL_ERROR a)"])
 def test_nothing_counts_after_the_end(end):
     assert [command.name for command in read_commands(f"a()\nmessage(b)\n{end}\nc()".encode())] == [
-        "a",
-        "message",
+        "a", "message",
     ]

@@ -309,9 +309,7 @@ class FollowsEvents(DoneCallbacks):
         super().__init__()
         for name in NODES:
             topic = f"/{name}/transition_event"
-            self.create_subscription(
-                TransitionEvent, topic, lambda msg, name=name: self.on_event(name, msg), 10
-            )
+            self.create_subscription(TransitionEvent, topic, lambda msg, name=name: self.on_event(name, msg), 10)
 
     def on_event(self, name, event):
         if self.plan and name == self.plan[0][1] and event.goal_state.label == GOALS[self.plan[0][0]]:

@@ -156,8 +156,7 @@ class Kidnapped(Node):
         cloud = ParticleCloud()
         cloud.header.frame_id, cloud.header.stamp = self.frame, stamp
         cloud.particles = [
-            Particle(pose=pose_of(*pose), weight=float(weight))
-            for pose, weight in zip(*self.some(), strict=True)
+            Particle(pose=pose_of(*pose), weight=float(weight)) for pose, weight in zip(*self.some(), strict=True)
         ]
         self.clouds.publish(cloud)
 
@@ -234,9 +233,7 @@ class Hypotheses(Kidnapped):
 
     def move(self, forward, left, turn):
         cos, sin = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
-        self.poses += np.column_stack(
-            [cos * forward - sin * left, sin * forward + cos * left, cos * 0 + turn]
-        )
+        self.poses += np.column_stack([cos * forward - sin * left, sin * forward + cos * left, cos * 0 + turn])
 
     def matched(self, pose, points):
         guesses = self.rng.normal(pose, 0.05, (40, 3))
@@ -317,6 +314,7 @@ class PublishesTheMean(Few):
         return np.array([(x, y, yaw)]), np.ones(1)
 
 
+
 class OdometryOnly(Few):
     """Never looks at a scan."""
 
@@ -331,6 +329,7 @@ class NeverNotices(Few):
         return 0.0
 
 
+
 class AlwaysSure(Few):
     def is_localized(self):
         return True
@@ -339,6 +338,7 @@ class AlwaysSure(Few):
 class NeverSure(Few):
     def is_localized(self):
         return False
+
 
 
 class SureForEver(Few):

@@ -52,9 +52,7 @@ def test_the_score_is_proper_the_true_probabilities_are_best(wrong):
     def expected(share):
         """The mean score if the robot is at each of two places in half of the cases."""
         far = _around(twin(TRUTH, MIDDLE), 0.05)
-        poses = np.concatenate(
-            [_around(TRUTH, 0.05)[: round(2000 * share)], far[: round(2000 * (1 - share))]]
-        )
+        poses = np.concatenate([_around(TRUTH, 0.05)[: round(2000 * share)], far[: round(2000 * (1 - share))]])
         return (_score(poses) + _score(poses, twin(TRUTH, MIDDLE))) / 2
 
     assert expected(wrong) < expected(0.5) - 1.0
@@ -108,9 +106,7 @@ def test_the_scores_of_a_run_are_those_at_the_robot_and_at_its_twin():
 def test_clouds_that_come_fast_are_not_all_scored():
     recording = _run(Certain, [], 2.05)
     assert len(localization.log_scores(recording)) == 20
-    assert [score.stamp for score in localization.log_scores(recording, apart=0.95)] == pytest.approx(
-        [0.1, 1.1]
-    )
+    assert [score.stamp for score in localization.log_scores(recording, apart=0.95)] == pytest.approx([0.1, 1.1])
 
 
 def test_a_cloud_without_weights_is_an_error():

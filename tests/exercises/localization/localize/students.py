@@ -150,9 +150,7 @@ class _Frame:
     def __matmul__(self, other):
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return _Frame(
-            self.x + cos * other.x - sin * other.y,
-            self.y + sin * other.x + cos * other.y,
-            self.yaw + other.yaw,
+            self.x + cos * other.x - sin * other.y, self.y + sin * other.x + cos * other.y, self.yaw + other.yaw
         )
 
     def inverse(self):
@@ -172,9 +170,7 @@ class Quaternions(Localization):
     """A design of its own: rotations stay quaternions, as in the messages."""
 
     def product(self, pose, odometry):
-        turned, back = (
-            tf_transformations.quaternion_from_euler(0.0, 0.0, each[2]) for each in (pose, odometry)
-        )
+        turned, back = (tf_transformations.quaternion_from_euler(0.0, 0.0, each[2]) for each in (pose, odometry))
         turn = tf_transformations.quaternion_multiply(turned, tf_transformations.quaternion_inverse(back))
         moved = tf_transformations.quaternion_matrix(turn) @ (*odometry[:2], 0.0, 1.0)
         yaw = tf_transformations.euler_from_quaternion(turn)[2]

@@ -29,10 +29,7 @@ from tests.sim.recordings import recording
 WALL = ((2.0, 0.0), (2.0, 1.5))
 HALL = World("hall", "", (0, 0, 4, 2), (0.5, 0.5, 0.0), goal=(3.5, 0.5), walls=(WALL,))
 WAY = shortest(HALL)
-THERE, LINE = (
-    TruePose(1.0, 0.5, 0.5, 0.0),
-    3.0,
-)  # where the robot is all the time, and how far as the crow flies
+THERE, LINE = TruePose(1.0, 0.5, 0.5, 0.0), 3.0  # where the robot is all the time, and how far as the crow flies
 
 
 def goal(*, from_course=True, ended=None, feedback=()):
@@ -42,18 +39,7 @@ def goal(*, from_course=True, ended=None, feedback=()):
         Message(stamp, f"{ACTION}/_action/feedback", f"{TYPE}_Feedback", "/navigator", encode(message))
         for stamp, message in feedback
     ]
-    return Goal(
-        ACTION,
-        TYPE,
-        "/client",
-        "00" * 16,
-        raw,
-        0.0,
-        "/navigator",
-        events,
-        rows,
-        requested_by_course=from_course,
-    )
+    return Goal(ACTION, TYPE, "/client", "00" * 16, raw, 0.0, "/navigator", events, rows, requested_by_course=from_course)
 
 
 def driven(*goals, cells=None, contacts=()):
@@ -70,9 +56,7 @@ def feedback(x=0.5, y=0.5, distance=WAY, seconds=10.0):
     place = PoseStamped(pose=Pose(position=Point(x=x, y=y)))
     nanoseconds = round(seconds * 1e9)
     left = Duration(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
-    return NavigateToPose.Feedback(
-        current_pose=place, distance_remaining=distance, estimated_time_remaining=left
-    )
+    return NavigateToPose.Feedback(current_pose=place, distance_remaining=distance, estimated_time_remaining=left)
 
 
 def faults(*rows, **more):
@@ -128,13 +112,7 @@ LEAST, MOST = max(LINE, to_go(HALL, THERE) / 1.6) - 0.5, 1.5 * to_go(HALL, THERE
 
 @pytest.mark.parametrize(
     ("distance", "wrong"),
-    [
-        (LEAST + 0.01, False),
-        (LEAST - 0.01, True),
-        (MOST - 0.01, False),
-        (MOST + 0.01, True),
-        (math.nan, True),
-    ],
+    [(LEAST + 0.01, False), (LEAST - 0.01, True), (MOST - 0.01, False), (MOST + 0.01, True), (math.nan, True)],
 )
 def test_a_distance_lies_between_the_straight_line_and_half_as_much_again_as_the_way(distance, wrong):
     found = faults((1.0, feedback(distance=distance)))
@@ -170,13 +148,9 @@ def test_after_a_touch_feedback_is_not_judged_as_odometry_is_wrong_then():
     assert len(faults((1.9, feedback(x=9.0)), contacts=[touch])) == 1
 
 
-@pytest.mark.parametrize(
-    ("seconds", "wrong"), [((3.0, 2.0, 0.0, 0.0), False), ((3.0, 0.0, 0.0, 0.0), True), ((0.0,), False)]
-)
+@pytest.mark.parametrize(("seconds", "wrong"), [((3.0, 2.0, 0.0, 0.0), False), ((3.0, 0.0, 0.0, 0.0), True), ((0.0,), False)])
 def test_an_estimate_is_above_0_in_the_first_half_of_the_way(seconds, wrong):
     found = faults(*((float(n), feedback(seconds=left)) for n, left in enumerate(seconds, 1)))
-    hint = (
-        "It is the distance divided by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
-    )
+    hint = "It is the distance divided by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
     expected = ("an estimated_time_remaining above 0 on the way", "0 s or less", hint)
     assert found == ([expected] if wrong else [])

@@ -3,20 +3,7 @@
 from grader.exercises.packages.session.watchman_package import FILES
 from tests.students.workspaces import Workspace, changed
 
-PARTS = (
-    "FILES",
-    "RIGHT",
-    "CREATE",
-    "CREATION",
-    "created",
-    "SET_UP",
-    "START",
-    "CALL",
-    "SIGN",
-    "DRIVE",
-    "typed",
-    "but",
-)
+PARTS = ("FILES", "RIGHT", "CREATE", "CREATION", "created", "SET_UP", "START", "CALL", "SIGN", "DRIVE", "typed", "but")
 SET_UP = "export ROS_DOMAIN_ID=42 ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
 START = "ros2 run watchman watch --ros-args -r drive:=cmd_vel"
 CALL = "ros2 service call /watchman/patrol std_srvs/srv/SetBool"
@@ -148,7 +135,6 @@ GuessesFirst = but(  # a person ends what waits for a name that isn't there
     f'{CALL} "{{data: true}}"', f'{CALL.replace("patrol", "start")} "{{data: true}}"\n{CALL} "{{data: true}}"'
 )
 
-
 def created(old: str, new: str) -> Workspace:
     """The right session, with other lines about the student's own package."""
     assert old in CREATION
@@ -169,8 +155,7 @@ OtherProgram = created("shine", "shines")
 OneNeed = created(" std_msgs", "")
 NewNotBuilt = created("colcon build --packages-select lantern\n", "")
 BuiltTooEarly = created(
-    f"{CREATE}\ncd ..\ncolcon build --packages-select lantern\n",
-    f"cd ..\ncolcon build\ncd src\n{CREATE}\ncd ..\n",
+    f"{CREATE}\ncd ..\ncolcon build --packages-select lantern\n", f"cd ..\ncolcon build\ncd src\n{CREATE}\ncd ..\n"
 )
 SourcedTooEarly = typed(
     RIGHT,

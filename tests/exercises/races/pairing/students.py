@@ -264,6 +264,7 @@ class EqualStamps(Synchronizer):
         return TimeSynchronizer(topics, 10)
 
 
+
 class QueueOfOne(Synchronizer):
     queue = 1
 
@@ -299,11 +300,13 @@ class ByTimer(Pairs):
         self.forget()
 
 
+
 class StampedNow(Pairs):
     def publish(self, image, scan):
         pair = TimeReference(time_ref=scan.header.stamp)
         pair.header.stamp = self.get_clock().now().to_msg()
         self.publisher.publish(pair)
+
 
 
 class Twice(Pairs):

@@ -99,11 +99,7 @@ def test_one_command_is_sent_for_each():
     one_more = [*TICKS, 2.01]
     assert missed("responds_to_each", STEADY, [*RAMP, 0.2], one_more)[:2] == ("40 messages on /cmd_vel", "41")
     hint = "Publish once in the callback of /cmd_vel_raw, each time it is called."
-    assert missed("responds_to_each", STEADY, RAMP[:-3], TICKS[:-3]) == (
-        "40 messages on /cmd_vel",
-        "37",
-        hint,
-    )
+    assert missed("responds_to_each", STEADY, RAMP[:-3], TICKS[:-3]) == ("40 messages on /cmd_vel", "37", hint)
 
 
 def test_a_speed_is_reached_with_the_27th_command():
@@ -200,11 +196,7 @@ def test_from_forwards_to_backwards_the_step_is_counted_from_0():
     turned = ending(STEADY, -0.1)
     assert passes("speeds_up_gently", turned, ending(RAMP, -0.025))
     hint = "From forwards to backwards the speed passes through 0"
-    assert missed("speeds_up_gently", turned, ending(RAMP, -0.03)) == (
-        GENTLY,
-        "0.2 and then -0.03 m/s at 2 s",
-        hint,
-    )
+    assert missed("speeds_up_gently", turned, ending(RAMP, -0.03)) == (GENTLY, "0.2 and then -0.03 m/s at 2 s", hint)
 
 
 def test_a_request_of_0_is_obeyed_at_once_but_for_a_thousandth():

@@ -337,9 +337,7 @@ class Guesses(Node):
     def __init__(self):
         super().__init__("auditor")
         publisher = self.create_publisher(String, "/audit/answers", 10)
-        self.create_subscription(
-            Int32, "/audit/question", lambda msg: publisher.publish(String(data="4 of 6")), 10
-        )
+        self.create_subscription(Int32, "/audit/question", lambda msg: publisher.publish(String(data="4 of 6")), 10)
 
 
 class Meddler(Node):

@@ -22,12 +22,7 @@ def test_a_copy_without_comments_and_annotations_changes_nothing():
 
 def test_lines_that_are_added_removed_or_replaced_count_once_each():
     given = methods_of(SYSTEMS["dock"].node)
-    assert (
-        changed_lines(
-            "dock", {**given, "on_departure": "def on_departure(self, msg):\n    self.take_next()"}, False
-        )
-        == 1
-    )
+    assert changed_lines("dock", {**given, "on_departure": "def on_departure(self, msg):\n    self.take_next()"}, False) == 1
     assert changed_lines("dock", {"on_departure": "def on_departure(self, msg):\n    pass"}, True) == 2
     assert changed_lines("dock", {"more": "def more(self):\n    # why\n    return 1"}, True) == 2
 

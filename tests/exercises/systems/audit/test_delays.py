@@ -9,10 +9,7 @@ from grader.exercises.systems.audit.deliveries import deliveries
 
 
 def test_a_number_is_for_all_messages_and_a_list_for_the_first_ones():
-    assert read_delays("labeler", {"camera": 0.2, "/scale": [0, 0.05]}) == {
-        "camera": [20],
-        "scale": [0, 5, 0],
-    }
+    assert read_delays("labeler", {"camera": 0.2, "/scale": [0, 0.05]}) == {"camera": [20], "scale": [0, 5, 0]}
     delays = {"camera": [20], "scale": [0, 5, 0]}
     assert [delay_of(delays, "camera", number) for number in range(3)] == [20, 20, 20]
     assert [delay_of(delays, "scale", number) for number in range(4)] == [0, 5, 0, 0]
@@ -50,7 +47,4 @@ def test_deliveries_say_what_can_be_delivered():
                                  "speed_gate.")  # fmt: skip
     with pytest.raises(ValueError) as caught:
         deliveries("dock", {"departures": 0.1})
-    assert (
-        str(caught.value)
-        == "The delays have a delay of “departures”, which isn't one of arrivals, open_gate."
-    )
+    assert str(caught.value) == "The delays have a delay of “departures”, which isn't one of arrivals, open_gate."

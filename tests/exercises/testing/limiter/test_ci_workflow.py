@@ -48,9 +48,9 @@ def missed(text):
         IN_ONE_STEP,
         BY_ITS_STATUS,
         BY_ROS_TOOLING,
-        BY_ROS_TOOLING.replace(
-            "    container: rostooling/setup-ros-docker:ubuntu-noble-ros-jazzy-ros-base-latest\n", ""
-        ).replace("steps:\n", "steps:\n      - uses: ros-tooling/setup-ros@v0.7\n"),
+        BY_ROS_TOOLING.replace("    container: rostooling/setup-ros-docker:ubuntu-noble-ros-jazzy-ros-base-latest\n", "").replace(
+            "steps:\n", "steps:\n      - uses: ros-tooling/setup-ros@v0.7\n"
+        ),
         BY_INDUSTRIAL_CI,
         CI.replace("source /opt/ros/jazzy/setup.bash && source install", "source install"),
         CI.replace("[push, pull_request]", "push"),
@@ -147,9 +147,4 @@ def test_an_action_that_builds_and_tests_needs_its_distribution(old, new, wanted
 
 def test_a_status_that_is_ignored_hides_a_failure():
     ignored = BY_ITS_STATUS.replace("failure\n", "failure || true\n")
-    assert missed(ignored) == (
-        "a workflow that fails if a test fails",
-        "a failure that is ignored",
-        HIDES,
-        0.5,
-    )
+    assert missed(ignored) == ("a workflow that fails if a test fails", "a failure that is ignored", HIDES, 0.5)

@@ -84,12 +84,10 @@ PathFromScripts = Workspace(
 )
 HelperWithoutInit = Workspace(
     __name__,
-    laid_out(
-        {
-            "odometer/node.py": NODE.replace("odometer.encoder", "odometer.helpers.encoder"),
-            "odometer/helpers/encoder.py": HELPER,
-        }
-    ),
+    laid_out({
+        "odometer/node.py": NODE.replace("odometer.encoder", "odometer.helpers.encoder"),
+        "odometer/helpers/encoder.py": HELPER,
+    }),
 )
 OtherTopic = Workspace(__name__, changed(RIGHT, N, '"distance"', '"meters"'))
 Retyped = Workspace(__name__, changed(RIGHT, H, "AROUND * ticks / PER_TURN", "ticks / PER_TURN"))
