@@ -56,19 +56,15 @@ def _evidence(recording: RunData) -> dict[str, Any]:
         of_network |= {"network": recording.network.to_data(), "hosts": recording.hosts}
         of_network["crossings"] = [asdict(crossing) for crossing in recording.crossings]
     drawn = {} if recording.drawing is None else {"drawing": asdict(recording.drawing)}
-    return (
-        of_network
-        | drawn
-        | {
-            "seconds": recording.seconds,
-            "seed": recording.seed,
-            "path": recording.path,
-            "tracks": recording.tracks,
-            "contacts": recording.contacts,
-            "logs": recording.logs,
-            "errors": [error._replace(traceback="") for error in recording.errors],
-            "callbacks": recording.callbacks,
-            "graph": asdict(recording.graph),
-            "ended": recording.ended,
-        }
-    )
+    return of_network | drawn | {
+        "seconds": recording.seconds,
+        "seed": recording.seed,
+        "path": recording.path,
+        "tracks": recording.tracks,
+        "contacts": recording.contacts,
+        "logs": recording.logs,
+        "errors": [error._replace(traceback="") for error in recording.errors],
+        "callbacks": recording.callbacks,
+        "graph": asdict(recording.graph),
+        "ended": recording.ended,
+    }

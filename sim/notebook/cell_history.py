@@ -117,7 +117,9 @@ class CellHistory:
             return ""
         error = self._errors.get(cells[-1], "")
         if error:
-            return f"The cell above that defines `{name}` ended with {error}. Fix that cell and run it first."
+            return (
+                f"The cell above that defines `{name}` ended with {error}. Fix that cell and run it first."
+            )
         return (
             f"A cell above defines `{name}`, and it has not run: "
             "choose Run > Run All Above Selected Cell, then run this cell again."

@@ -30,16 +30,16 @@ class Placement(NamedTuple):
         """The other frame, placed in this one."""
         x, y, z, w = self.rotation
         back = (-x, -y, -z, w)
-        u, v, n = _turned(back, self.position)
-        return Placement((-u, -v, -n), back)
+        x, y, z = _turned(back, self.position)
+        return Placement((-x, -y, -z), back)
 
     def of(self, inner: Placement) -> Placement:
         """Return what is placed in this frame, placed in the frame of this one."""
         x, y, z, w = self.rotation
         a, b, c, d = inner.rotation
-        (u, v, n), (du, dv, dn) = self.position, _turned(self.rotation, inner.position)
+        (x, y, z), (dx, dy, dz) = self.position, _turned(self.rotation, inner.position)
         return Placement(
-            (u + du, v + dv, n + dn),
+            (x + dx, y + dy, z + dz),
             (
                 w * a + x * d + y * c - z * b,
                 w * b - x * c + y * d + z * a,

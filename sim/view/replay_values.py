@@ -128,11 +128,8 @@ def _curves(messages: Sequence[Any], lines: Sequence[list[str]]) -> list[list[An
         return []
     known = {field: line for line, (field, _) in enumerate(field_lines(messages[0])) if line < len(lines[0])}
     rows = [dict(numbers_to_plot(message)) for message in messages]
-    fields = [
-        field
-        for field in dict.fromkeys(field for row in rows for field in row)
-        if field in known or field not in dict(single_numbers(messages[0]))
-    ]
+    fields = [field for field in dict.fromkeys(field for row in rows for field in row)
+              if field in known or field not in dict(single_numbers(messages[0]))]
     changing = [field for field in fields if len({_rounded(row[field]) for row in rows if field in row}) > 1]
     return [
         [field, known.get(field, [_rounded(row.get(field, math.nan)) for row in rows])]

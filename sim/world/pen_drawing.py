@@ -48,7 +48,9 @@ class PenDrawing:
 
     def ground_at(self, stamp: float) -> Color:
         """The color of the ground at `stamp` (s)."""
-        return next((color for since, color in reversed(self.grounds) if since <= stamp), self.grounds[0][1])
+        return next(
+            (color for since, color in reversed(self.grounds) if since <= stamp), self.grounds[0][1]
+        )
 
     def set_ground(self, stamp: float, color: Color) -> None:
         """Change the color of the ground from `stamp` (s) on."""

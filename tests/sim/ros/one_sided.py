@@ -10,7 +10,9 @@ LATCHED = QoSProfile(depth=50, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 FIVE = QoSProfile(depth=5)
 EVERYTHING = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 DEADLINE = QoSProfile(depth=50, deadline=HALF)
-BY_HAND = QoSProfile(depth=50, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=HALF)
+BY_HAND = QoSProfile(
+    depth=50, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=HALF
+)
 BRIEF = QoSProfile(depth=50, lifespan=SHORT)
 BRIEFLY_LATCHED = QoSProfile(depth=50, lifespan=HALF, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
