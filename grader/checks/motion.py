@@ -117,9 +117,10 @@ def passes(recording: Recording, points: Sequence[Point], *, tolerance: float = 
         reached += 1
     if reached < len(points):
         x, y = points[reached]
+        later = " after that" if reached else ""
         raise Missed(
             f"the robot within {tolerance:g} m of {len(points)} points, one after the other",
-            f"{reached} of them; it never reached ({x:g}, {y:g}) m after that",
+            f"{reached or 'none'} of them; it never reached ({x:g}, {y:g}) m{later}",
             _movement_hint(recording),
             credit=reached / len(points),
             picture="path",

@@ -99,6 +99,8 @@ def test_passes_wants_the_points_in_order():
     assert miss.expected == "the robot within 0.1 m of 3 points, one after the other"
     assert miss.saw == "2 of them; it never reached (1, 1) m after that"
     assert miss.credit == pytest.approx(2 / 3)
+    miss = missed(passes, driven(SQUARE), [(5.0, 0.0), (1.0, 0.0)])
+    assert miss.saw == "none of them; it never reached (5, 0) m"
     passes(driven([(0, 0), (1.25, 0)]), [(1.0, 0.0)], tolerance=0.25)
 
 
