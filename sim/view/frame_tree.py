@@ -37,9 +37,9 @@ class Placement(NamedTuple):
         """Return what is placed in this frame, placed in the frame of this one."""
         x, y, z, w = self.rotation
         a, b, c, d = inner.rotation
-        (x, y, z), (dx, dy, dz) = self.position, _turned(self.rotation, inner.position)
+        way = _turned(self.rotation, inner.position)
         return Placement(
-            (x + dx, y + dy, z + dz),
+            (self.position[0] + way[0], self.position[1] + way[1], self.position[2] + way[2]),
             (
                 w * a + x * d + y * c - z * b,
                 w * b - x * c + y * d + z * a,
