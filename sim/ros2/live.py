@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from typing import Any
 
 import rclpy
@@ -18,6 +19,7 @@ from sim.evidence.qos import settings
 from sim.ros.messages.codec import message_class
 from sim.ros2 import domains
 from sim.ros2.system import POLL, Known, NodeTask, Output, ReceivedMessage, System, T, with_node
+from sim.ros2.uninterrupted import uninterrupted
 
 SETTLING_TIME = 0.5  # s without a change of the graph, as in the official tools
 POLL_GRAPH = 0.05  # s between two checks of the graph
@@ -142,6 +144,10 @@ class LiveSystem(System):
         finally:
             for subscription in subscriptions:
                 self._node.destroy_subscription(subscription)
+
+    def uninterrupted(self) -> AbstractContextManager[None]:
+        """Work like `System`."""
+        return uninterrupted()
 
     def _profile(self, topic: str) -> QoSProfile:
         """The strongest QoS that matches all publishers of a topic."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
@@ -96,6 +97,10 @@ class System(ABC):
 
         seconds: time limit. Raises CliError if no nodes are running.
         """
+
+    def uninterrupted(self) -> AbstractContextManager[None]:
+        """A block that Ctrl-C doesn't leave in the middle."""
+        return nullcontext()
 
     def call(self, kind: type, service: str, request: Any) -> Any:
         """The response of a service. Raises CliError if the service is not available."""

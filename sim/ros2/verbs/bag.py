@@ -56,7 +56,8 @@ def record(system: System, options: Namespace) -> None:
                 if message is not None:
                     at, sent = (system.epoch + round(s * SECOND) for s in (message.stamp, message.sent))
                     offered = qos.get(message.topic, {})
-                    writer.write(message.topic, message.type, message.raw, (at, sent), offered)
+                    with system.uninterrupted():
+                        writer.write(message.topic, message.type, message.raw, (at, sent), offered)
         finally:
             system.print_line(f"Recording stopped: {writer.contents.counts.total()} messages in {folder}")
 

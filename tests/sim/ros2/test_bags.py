@@ -1,5 +1,6 @@
 """ros2 bag: what is recorded, played, copied and repaired, in a run."""
 
+import signal
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,9 +13,10 @@ from rclpy.service_introspection import ServiceIntrospectionState
 from std_msgs.msg import Float64, String
 
 from sim import run
-from sim.ros.bags.bag_files import Bag
+from sim.ros.bags.bag_files import Bag, BagWriter
 from sim.ros2.cli_program import terminal
 from sim.ros2.notebook import ros2
+from sim.ros2.uninterrupted import uninterrupted
 
 
 class Source(Node):
@@ -229,3 +231,19 @@ def test_the_time_of_a_bag_is_no_clock_in_a_run():
     recorded("/level")
     recording = run(Sink, terminal("ros2 bag play kept --clock"), seconds=3, quiet=True)
     assert [error.type for error in recording.errors] == ["NotImplementedError"]
+
+
+class Interrupting:
+    """A stamp (ns): while it is written, Ctrl-C is pressed."""
+
+    def __index__(self):
+        signal.raise_signal(signal.SIGINT)
+        return 1
+
+
+def test_ctrl_c_while_a_message_is_written_leaves_a_bag_that_can_be_read(tmp_path):
+    folder = tmp_path / "kept"
+    with pytest.raises(KeyboardInterrupt), BagWriter(folder) as writer, uninterrupted():
+        writer.write("/fixed", "example_interfaces/msg/Bool", b"\0\1\0\0\1", (1, Interrupting()), {})
+    assert Bag(folder).contents.counts == {"/fixed": 1}
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
