@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -145,7 +145,7 @@ class LiveSystem(System):
             for subscription in subscriptions:
                 self._node.destroy_subscription(subscription)
 
-    def uninterrupted(self) -> AbstractContextManager[None]:
+    def uninterrupted(self) -> AbstractContextManager[Sequence[int]]:
         """Work like `System`."""
         return uninterrupted()
 

@@ -6,7 +6,7 @@ Stamps are seconds: of the wall clock in a terminal, since the start of the run 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
@@ -98,9 +98,9 @@ class System(ABC):
         seconds: time limit. Raises CliError if no nodes are running.
         """
 
-    def uninterrupted(self) -> AbstractContextManager[None]:
-        """A block that Ctrl-C doesn't leave in the middle."""
-        return nullcontext()
+    def uninterrupted(self) -> AbstractContextManager[Sequence[int]]:
+        """A block that Ctrl-C doesn't leave in the middle; gives what isn't empty once it was pressed."""
+        return nullcontext(())
 
     def call(self, kind: type, service: str, request: Any) -> Any:
         """The response of a service. Raises CliError if the service is not available."""

@@ -1,25 +1,22 @@
-"""Ctrl-C waits for a message to be written, or it would leave a file that can't be read."""
+"""Ctrl-C waits until a file is complete, or it would leave one that can't be read."""
 
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
 
 
 @contextmanager
-def uninterrupted() -> Iterator[None]:
-    """Handle a Ctrl-C within the block at its end. For the main thread, where rclpy's own handler is off."""
-    received = False
+def uninterrupted() -> Iterator[Sequence[int]]:
+    """Handle Ctrl-C at the end of the block; yields the signals so far, so that the block can end soon.
 
-    def take_note(*_: Any) -> None:
-        nonlocal received
-        received = True
-
-    handler = signal.signal(signal.SIGINT, take_note)
+    For the main thread, where rclpy's own handler is off.
+    """
+    received: list[int] = []
+    handler = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
     try:
-        yield
+        yield received
     finally:
         signal.signal(signal.SIGINT, handler)
         if received:

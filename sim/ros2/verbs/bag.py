@@ -48,7 +48,7 @@ def record(system: System, options: Namespace) -> None:
         raise CliError("There is nothing to record.")
     qos = {end.name: end.qos for end in system.endpoints if end.kind == "publisher"}
     folder = options.output or Path(time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
-    with BagWriter(folder) as writer:
+    with system.uninterrupted() as interrupts, BagWriter(folder) as writer:
         for name in chosen:
             system.print_line(f"Subscribed to topic '{name}'")
         try:
@@ -56,8 +56,9 @@ def record(system: System, options: Namespace) -> None:
                 if message is not None:
                     at, sent = (system.epoch + round(s * SECOND) for s in (message.stamp, message.sent))
                     offered = qos.get(message.topic, {})
-                    with system.uninterrupted():
-                        writer.write(message.topic, message.type, message.raw, (at, sent), offered)
+                    writer.write(message.topic, message.type, message.raw, (at, sent), offered)
+                elif interrupts:
+                    break
         finally:
             system.print_line(f"Recording stopped: {writer.contents.counts.total()} messages in {folder}")
 

@@ -234,16 +234,18 @@ def test_the_time_of_a_bag_is_no_clock_in_a_run():
 
 
 class Interrupting:
-    """A stamp (ns): while it is written, Ctrl-C is pressed."""
+    """A stamp (ns): while it is written, Ctrl-C is pressed twice."""
 
     def __index__(self):
+        signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
         return 1
 
 
 def test_ctrl_c_while_a_message_is_written_leaves_a_bag_that_can_be_read(tmp_path):
     folder = tmp_path / "kept"
-    with pytest.raises(KeyboardInterrupt), BagWriter(folder) as writer, uninterrupted():
+    with pytest.raises(KeyboardInterrupt), uninterrupted() as interrupts, BagWriter(folder) as writer:
         writer.write("/fixed", "example_interfaces/msg/Bool", b"\0\1\0\0\1", (1, Interrupting()), {})
+        assert interrupts == [signal.SIGINT, signal.SIGINT]
     assert Bag(folder).contents.counts == {"/fixed": 1}
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
